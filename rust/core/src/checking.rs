@@ -29,7 +29,9 @@ use crate::readings::sweep::{Statistic, Sweep, SweepAxes};
 use crate::readings::terms::terms;
 use crate::readings::tolerances::{Distribution, FIGURES, Tolerances};
 use crate::readings::waveform;
-use crate::source::{ForcePart, Repeats, Scaling, Source};
+use crate::source::{
+    ForcePart, Repeats, Scaling, Series, Source, Tail, TorqueAmplitudes, UpTo, series,
+};
 
 /// Force of a load along its direction, N, and its torques on the block and on the main crank, N·m, at a crank
 /// speed, rpm, and a crank angle from its phase, degrees: measured, or known in another way.
@@ -112,25 +114,27 @@ impl StatedAmplitudes {
     /// Checks what a source says of its orders and of its tail.
     fn new(source: &dyn Source) -> Result<Self> {
         let (cancel, parts) = (Cancel::new(), source.parts());
-        let orders = source.orders(Order::whole(HIGHEST_SUMMED)?);
-        let is_ascending = orders.is_sorted_by(|before, after| before < after);
-        if !is_ascending
-            || orders
-                .last()
-                .is_some_and(|last| *last > Order::whole(HIGHEST_SUMMED).unwrap_or(*last))
-        {
-            return Err(wrong(
-                "orders",
-                format!("{orders:?}"),
-                "give them once, ascending, up to the highest",
-            ));
+        let series = |up_to: UpTo<'_>| series(source, up_to, &cancel);
+        let longest = source.series(UpTo::Halves(2 * HIGHEST_SUMMED), &cancel)?;
+        if !longest.orders.is_sorted_by(|before, after| before < after) {
+            let orders = format!("{:?}", longest.orders);
+            return Err(wrong("series", orders, "give orders once, ascending"));
         }
+        let Series { force, torque: TorqueAmplitudes { harmonics, .. }, .. } = &longest;
+        for amplitudes in [force, &harmonics.roll, &harmonics.crank] {
+            if ![0, longest.orders.len()].contains(&amplitudes.len()) {
+                let hint = "give one amplitude for each order, of force and torques";
+                return Err(wrong("series", amplitudes.len(), hint));
+            }
+        }
+        let Series { mut orders, rest, .. } = series(UpTo::Halves(2 * HIGHEST_SUMMED))?;
+        orders.retain(|order| order.halves() <= 2 * HIGHEST_SUMMED);
         let half = orders.iter().find(|order| order.as_whole().is_none());
         if let Some(half) = half.filter(|_| {
             parts.repeats == Repeats::EveryTurn && parts.force != Some(ForcePart::Turning)
         }) {
             return Err(wrong(
-                "orders",
+                "series",
                 half,
                 "has a half order, and says that it repeats in every turn",
             ));
@@ -174,31 +178,52 @@ impl StatedAmplitudes {
                 same(&reading, found, expected, READING_ROUNDING * largest)?;
             }
         }
-        let tails = source.up_to(Order::whole(HIGHEST_SUMMED)?, &cancel)?.map(|(_, tails)| tails);
-        let tail = |halves: u32| match &tails {
-            Some(tails) if halves == 0 => [0.0, f64::INFINITY],
-            Some(tails) => [0.0, tails.get(halves as usize - 1).copied().unwrap_or(f64::INFINITY)],
-            None => {
-                let tail = source.beyond(halves, true);
-                [tail.force, tail.torque]
-            }
-        };
-        let checked = Self { orders, values, mean, tail: tail(2 * HIGHEST_SUMMED) };
+        let checked = Self { orders, values, mean, tail: [rest.force, rest.torque] };
         for halves in [0, 1, 2, 3, 4, 5, 8, 12, 24, 48] {
-            let bound = tail(halves);
-            for theta in (0..1440).map(|k| 0.5 * f64::from(k)) {
-                let [force, roll, crank] = checked.over_angle(theta, halves);
-                let largest = [force.abs(), roll.abs().max(crank.abs())];
-                for (largest, bound) in largest.into_iter().zip(bound) {
-                    if largest > bound * (1.0 + READING_ROUNDING) + f64::MIN_POSITIVE {
-                        let hint =
-                            format!("orders above {} make {largest:?}", 0.5 * f64::from(halves));
-                        return Err(wrong("beyond", bound, &hint));
-                    }
+            checked.check_rest(series(UpTo::Halves(halves))?, halves)?;
+        }
+        // As much as matters for some tolerances.
+        let Tail { force, torque } = series(UpTo::Halves(0))?.rest;
+        for part in [0.3, 1e-2, 1e-4] {
+            let is_within = |rest: f64, all: f64| rest <= part * all;
+            let is_enough =
+                |rest: Tail| is_within(rest.force, force) && is_within(rest.torque, torque);
+            let some = series(UpTo::Enough(&is_enough))?;
+            let halves = some.orders.last().map_or(0, |last| last.halves());
+            if !is_enough(some.rest) && halves < 2 * HIGHEST_SUMMED {
+                let hint = format!("is no rest of {part:?} of all, which was enough");
+                return Err(wrong("series", format!("{:?}", some.rest), &hint));
+            }
+            checked.check_rest(some, halves)?;
+        }
+        Ok(checked)
+    }
+
+    /// Checks that a series up to a number of halves has its orders and amplitudes, and that the rest is bounded.
+    fn check_rest(&self, series: Series, halves: u32) -> Result<()> {
+        let Series { orders, force, torque: TorqueAmplitudes { harmonics, .. }, rest } = series;
+        let largest = self.values.iter().flatten().map(|value| value.norm()).fold(0.0, f64::max);
+        for (k, amplitudes) in [force, harmonics.roll, harmonics.crank].iter().enumerate() {
+            for (found, expected) in amplitudes.iter().zip(&self.values) {
+                same("Source::series", *found, expected[k], READING_ROUNDING * largest)?;
+            }
+        }
+        let expected = self.orders.iter().filter(|order| order.halves() <= halves);
+        if halves <= 2 * HIGHEST_SUMMED && !orders.iter().eq(expected) {
+            let hint = format!("are not its orders up to {}", 0.5 * f64::from(halves));
+            return Err(wrong("series", format!("{orders:?}"), &hint));
+        }
+        for theta in (0..1440).map(|k| 0.5 * f64::from(k)) {
+            let [force, roll, crank] = self.over_angle(theta, halves);
+            let largest = [force.abs(), roll.abs().max(crank.abs())];
+            for (largest, bound) in largest.into_iter().zip([rest.force, rest.torque]) {
+                if largest > bound * (1.0 + READING_ROUNDING) + f64::MIN_POSITIVE {
+                    let hint = format!("orders above {} make {largest:?}", 0.5 * f64::from(halves));
+                    return Err(wrong("series", bound, &hint));
                 }
             }
         }
-        Ok(checked)
+        Ok(())
     }
 
     /// Sum of the orders above a number of halves at a crank angle from the phase, degrees.

@@ -11,8 +11,7 @@ use self::objective::{ObjectiveFunction, Rotor, TurningPhasor, dot};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{
-    Arithmetic, Factor, Load, LoadIndex, LoadList, PhasorSum, Phasors, Term, Wanted, Weight,
-    superpose,
+    Arithmetic, Factor, Load, LoadIndex, PhasorSum, Phasors, Scene, Term, Wanted, Weight, superpose,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -141,7 +140,7 @@ impl Objectives {
         removed: &[SpeedRatio],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads = LoadList::new(engine, engine.reference(None)?);
+        let loads = Scene::of(engine, None)?;
         let count = engine.stations().len();
         let lists = variables.iter().flat_map(|each| [&each.bores, &each.pins]);
         for list in lists {
@@ -237,7 +236,7 @@ impl Objectives {
 }
 
 /// Orders of objectives and of totals, ascending, where the loads allow them.
-fn orders_of(objectives: &[Objective], orders: &[Order], loads: &LoadList) -> Result<Vec<Order>> {
+fn orders_of(objectives: &[Objective], orders: &[Order], loads: &Scene) -> Result<Vec<Order>> {
     let mut all: Vec<Order> = objectives.iter().filter_map(|each| each.order).collect();
     all.extend_from_slice(orders);
     all.sort_unstable();

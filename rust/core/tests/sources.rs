@@ -8,7 +8,9 @@ use crankpin_core::bearing_loads::BearingLoadsModel;
 use crankpin_core::engine::{ActsOn, PeriodicLoad};
 use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing};
 use crankpin_core::quantity::{Part, Quantity};
-use crankpin_core::source::{ForcePart, Parts, Repeats, Scaling, Source, Tail, TorqueAmplitudes};
+use crankpin_core::source::{
+    ForcePart, Parts, Repeats, Scaling, Series, Source, Tail, TorqueAmplitudes, UpTo,
+};
 use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
 use crankpin_core::{
     Angle, Cancel, Complex64, Cylinder, Engine, Error, Order, Orders, Request, Result, SpeedRatio,
@@ -23,11 +25,30 @@ struct ValveSprings {
     tail: f64,
     repeats: Repeats,
     scaling: Scaling,
+    series: SpringSeries,
+}
+
+/// What the series of springs is like.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum SpringSeries {
+    Honest,
+    /// Without order ½ where order 5/2 is beyond.
+    Forgets,
+    /// Of twice the torque.
+    Doubled,
+    /// Never further than order ½.
+    Lazy,
+    /// The higher order first.
+    Descending,
 }
 
 impl ValveSprings {
-    const HONEST: Self =
-        Self { tail: 1.0, repeats: Repeats::EveryTwoTurns, scaling: Scaling::Independent };
+    const HONEST: Self = Self {
+        tail: 1.0,
+        repeats: Repeats::EveryTwoTurns,
+        scaling: Scaling::Independent,
+        series: SpringSeries::Honest,
+    };
 
     /// Of 20 N·m on the camshaft at both orders.
     fn orders() -> Vec<Order> {
@@ -45,19 +66,32 @@ impl Source for ValveSprings {
         Parts { force: None, roll: true, scaling, repeats }
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        Self::orders().into_iter().filter(|order| *order <= highest).collect()
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
+        let rest = |halves: u32| {
+            let left = Self::orders().iter().filter(|order| order.halves() > halves).count();
+            Tail { force: 0.0, torque: 10.0 * self.tail * left as f64 }
+        };
+        let highest = match (self.series, up_to) {
+            (SpringSeries::Lazy, UpTo::Enough(_)) => 1,
+            _ => up_to.halves(rest),
+        };
+        let mut orders = Self::orders();
+        orders.retain(|order| order.halves() <= highest);
+        match self.series {
+            SpringSeries::Forgets if highest < 5 => orders.clear(),
+            SpringSeries::Descending => orders.reverse(),
+            _ => {}
+        }
+        let size = if self.series == SpringSeries::Doubled { 40.0 } else { 20.0 };
+        let on_camshaft = vec![size.into(); orders.len()];
+        let torque = TorqueAmplitudes::shared(&on_camshaft, 0.0, ActsOn::Both.torque_shares(0.5));
+        Ok(Series { orders, torque, rest: rest(highest), ..Series::default() })
     }
 
     fn torque(&self, orders: &[Order], _: &Cancel) -> Result<TorqueAmplitudes> {
         let size = |order: &Order| if Self::orders().contains(order) { 20.0 } else { 0.0 };
         let on_camshaft: Vec<Complex64> = orders.iter().map(|order| size(order).into()).collect();
         Ok(TorqueAmplitudes::shared(&on_camshaft, 0.0, ActsOn::Both.torque_shares(0.5)))
-    }
-
-    fn beyond(&self, halves: u32, _: bool) -> Tail {
-        let left = Self::orders().iter().filter(|order| order.halves() > halves).count();
-        Tail { force: 0.0, torque: 10.0 * self.tail * left as f64 }
     }
 }
 
@@ -75,17 +109,9 @@ impl Source for Belt {
         Parts { force, roll: false, scaling: Scaling::Independent, repeats }
     }
 
-    fn orders(&self, _: Order) -> Vec<Order> {
-        vec![Order::from_halves(1).unwrap()]
-    }
-
-    fn force(&self, orders: &[Order], _: &Cancel) -> Result<Vec<Complex64>> {
-        let at = |order: &Order| if order.halves() == 1 { 300.0 } else { 0.0 };
-        Ok(orders.iter().map(|order| Complex64::new(at(order), 0.5 * at(order))).collect())
-    }
-
-    fn beyond(&self, halves: u32, _: bool) -> Tail {
-        Tail { force: if halves < 1 { 300.0_f64.hypot(150.0) } else { 0.0 }, torque: 0.0 }
+    fn series(&self, _: UpTo, _: &Cancel) -> Result<Series> {
+        let (orders, force) = (vec![Order::from_halves(1)?], vec![Complex64::new(300.0, 150.0)]);
+        Ok(Series { orders, force, ..Series::default() })
     }
 }
 
@@ -110,26 +136,18 @@ impl Source for Pulses {
         Parts { force, roll: true, scaling, repeats }
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        (1..=highest.halves() / 2).map(|n| Order::whole(n).unwrap()).collect()
-    }
-
-    fn force(&self, orders: &[Order], _: &Cancel) -> Result<Vec<Complex64>> {
-        let own = |order: &Order| order.as_whole().map_or(0.0, |_| Self::size(order.halves()));
-        Ok(orders.iter().map(|order| own(order).into()).collect())
-    }
-
-    fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        let i = Complex64::i();
-        let torque: Vec<_> =
-            self.force(orders, cancel)?.iter().map(|force| 0.1 * i * force).collect();
-        Ok(TorqueAmplitudes::shared(&torque, 1e-4, ActsOn::Shaft.torque_shares(1.0)))
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let first = Self::size(2 * (halves / 2 + 1));
-        let force = first / (1.0 - (-1.0_f64 / 3.0).exp());
-        Tail { force, torque: if torque { 0.1 * force } else { 0.0 } }
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
+        let rest = |halves: u32| {
+            let force = Self::size(2 * (halves / 2 + 1)) / (1.0 - (-1.0_f64 / 3.0).exp());
+            Tail { force, torque: 0.1 * force }
+        };
+        let highest = up_to.halves(rest);
+        let orders = (1..=highest / 2).map(Order::whole).collect::<Result<Vec<_>>>()?;
+        let force: Vec<Complex64> =
+            orders.iter().map(|order| Self::size(order.halves()).into()).collect();
+        let torque: Vec<_> = force.iter().map(|force| 0.1 * Complex64::i() * force).collect();
+        let torque = TorqueAmplitudes::shared(&torque, 1e-4, ActsOn::Shaft.torque_shares(1.0));
+        Ok(Series { orders, force, torque, rest: rest(highest) })
     }
 }
 
@@ -201,10 +219,20 @@ fn sources_that_lie_are_found_out() {
     };
     for tail in [0.0, 0.6] {
         let found = text(ValveSprings { tail, ..ValveSprings::HONEST });
-        assert!(found.starts_with("Source::beyond"), "{found}");
+        assert!(found.starts_with("Source::series"), "{found}");
+        assert!(found.contains("orders above"), "{found}");
     }
     let found = text(ValveSprings { repeats: Repeats::EveryTurn, ..ValveSprings::HONEST });
-    assert!(found.starts_with("Source::orders"), "{found}");
+    assert!(found.starts_with("Source::series") && found.contains("half order"), "{found}");
+    for (series, words) in [
+        (SpringSeries::Forgets, "are not its orders up to"),
+        (SpringSeries::Doubled, "plain sums"),
+        (SpringSeries::Lazy, "is no rest of"),
+        (SpringSeries::Descending, "ascending"),
+    ] {
+        let found = text(ValveSprings { series, ..ValveSprings::HONEST });
+        assert!(found.starts_with("Source::series") && found.contains(words), "{found}");
+    }
 }
 
 #[test]

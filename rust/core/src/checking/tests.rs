@@ -1,9 +1,11 @@
 use super::*;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::load::tests::fired;
 use crate::mechanism::DrivenMechanism;
 use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
-use crate::source::{Column, ExactFactor, Parts, Point, Scale, SourceUpTo, Tail, TorqueAmplitudes};
+use crate::source::{
+    Column, ExactFactor, Parts, Point, Scale, Series, TorqueAmplitudes, UpTo, resolved,
+};
 
 /// A source of the house under a name of its own.
 #[derive(Debug)]
@@ -34,33 +36,21 @@ impl Source for Renamed {
         self.0.torque(orders, cancel)
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        self.0.orders(highest)
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        self.0.beyond(halves, torque)
-    }
-
-    fn has_open_tail(&self) -> bool {
-        self.0.has_open_tail()
-    }
-
-    fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
-        let renamed = |(source, tails)| -> SourceUpTo { (Arc::new(Self(source)), tails) };
-        Ok(self.0.up_to(highest, cancel)?.map(renamed))
-    }
-
-    fn largest_torque(&self) -> f64 {
-        self.0.largest_torque()
+    fn series(&self, up_to: UpTo, cancel: &Cancel) -> Result<Series> {
+        self.0.series(up_to, cancel)
     }
 
     fn scale(&self) -> Scale {
         self.0.scale()
     }
 
-    fn grows_with_rod_ratio(&self, column: Column) -> bool {
-        self.0.grows_with_rod_ratio(column)
+    fn sizes_up_to_own(
+        &self,
+        column: Column,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[Vec<f64>; 2]>> {
+        self.0.sizes_up_to_own(column, orders, cancel)
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
@@ -95,7 +85,7 @@ fn sources_of_the_house_are_counted_by_every_reading() {
         torque: amplitudes,
         ..PeriodicLoad::new("numbers", ActsOn::Block)
     };
-    let loads = LoadList::new(&engine.with_loads(vec![numbers]).unwrap(), 0.0);
+    let loads = Scene::anew(&engine.with_loads(vec![numbers]).unwrap(), 0.0);
     let mut kinds = Vec::new();
     for source in &loads.sources {
         let kind = format!("{source:?}").split([' ', '(']).next().unwrap_or_default().to_owned();
@@ -105,7 +95,8 @@ fn sources_of_the_house_are_counted_by_every_reading() {
         let mut load = PeriodicLoad::of(Renamed(Arc::clone(source)), ActsOn::Block);
         if source.parts().force == Some(ForcePart::Turning) {
             // The shaft that a force turns with has its speed.
-            load.ratio = crate::SpeedRatio::at(source.orders(Order::HIGHEST)[0], true);
+            let own = resolved(&**source, &Cancel::new()).unwrap();
+            load.ratio = crate::SpeedRatio::at(own[0], true);
         }
         check_source(&load, None).unwrap_or_else(|error| panic!("{kind}: {error}"));
         kinds.push(kind);

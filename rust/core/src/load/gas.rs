@@ -13,8 +13,8 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, GasTorque};
 use crate::source::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
 use crate::source::{
-    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Source, SourceUpTo, Tail,
-    TorqueAmplitudes, is_equal,
+    ExactFactor, GAS, Parts, Point, Repeats, Scale, Scaling, Series, Source, Tail,
+    TorqueAmplitudes, UpTo, is_equal,
 };
 
 /// Torque over piston area and crank radius, Pa, of a cycle of pressure above the piston and an even one
@@ -28,15 +28,39 @@ pub(super) struct GasPressure {
     pub place: usize,
     /// Absolute pressure in the crankcase, Pa.
     pub crankcase: f64,
-    /// Harmonics ½, 1, 1½ … as far as they are known.
-    pub known: Option<GasTorque>,
+}
+
+/// Part of the largest torque that orders may leave out, at least: they decline slowly.
+const LEAST_LEFT_OUT: f64 = 1e-3;
+/// Numbers of halves up to which a torque is integrated to see how far it matters; that of a cycle in which
+/// pressure jumps declines like 1/n.
+const INTEGRATED: [u32; 2] = [2 * 48, 2 * 192];
+
+impl GasPressure {
+    /// Torques on the block and on the main crank.
+    fn amplitudes(&self, GasTorque { mean, phasors }: GasTorque) -> TorqueAmplitudes {
+        let [on_block, _] = self.mechanism.senses();
+        let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
+        let harmonics = TorqueHarmonics { roll, crank: phasors };
+        TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] }
+    }
+
+    /// Largest torque among those at whole degrees.
+    fn largest_torque(&self) -> f64 {
+        let torque = |degrees: u32| {
+            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+            let pressure = self.cycle.pressure_deg(f64::from(degrees)) - self.crankcase;
+            (pressure * self.mechanism.mechanism.motion(&CrankPosition::new(sin, cos)).velocity)
+                .abs()
+        };
+        (0..720).map(torque).fold(0.0, f64::max)
+    }
 }
 
 impl PartialEq for GasPressure {
     fn eq(&self, other: &Self) -> bool {
-        let Self { mechanism, cycle, place, crankcase, known } = self;
-        (mechanism, place, crankcase, known)
-            == (&other.mechanism, &other.place, &other.crankcase, &other.known)
+        let Self { mechanism, cycle, place, crankcase } = self;
+        (mechanism, place, crankcase) == (&other.mechanism, &other.place, &other.crankcase)
             // Mostly it is one table, whose numbers need not be compared.
             && (Arc::ptr_eq(cycle, &other.cycle) || *cycle == other.cycle)
     }
@@ -63,67 +87,66 @@ impl Source for GasPressure {
         Some(&self.mechanism)
     }
 
+    /// No bound of the rest is known before the orders below it are integrated.
+    fn series(&self, up_to: UpTo, cancel: &Cancel) -> Result<Series> {
+        let Self { mechanism, cycle, crankcase, .. } = self;
+        let integrate = |halves: u32| {
+            cycle.torque_up_to(
+                &mechanism.mechanism,
+                *crankcase,
+                Order::from_halves(halves)?,
+                cancel,
+            )
+        };
+        let step = if self.parts().repeats == Repeats::EveryTurn { 2 } else { 1 };
+        let ((torque, tails), highest) = match up_to {
+            UpTo::Halves(halves) => (integrate(halves.max(1))?, halves),
+            UpTo::Enough(is_enough) => {
+                let is_enough = |torque: &f64| is_enough(Tail { force: 0.0, torque: *torque });
+                let [first, last] = INTEGRATED;
+                let mut found = integrate(first)?;
+                let mut place = found.1.iter().position(is_enough);
+                if place.is_none() {
+                    found = integrate(last)?;
+                    place = found.1.iter().position(is_enough);
+                }
+                (found, place.map_or(last, |place| place as u32 + 1))
+            }
+        };
+        let halves = (step..=highest).step_by(step as usize);
+        let orders = halves.map(Order::from_halves).collect::<Result<Vec<_>>>()?;
+        let rest = match highest {
+            0 => tails[0] + torque.phasors[0].norm(),
+            _ => tails[highest as usize - 1],
+        };
+        Ok(Series {
+            torque: self.amplitudes(torque.at(&orders)),
+            orders,
+            rest: Tail { force: 0.0, torque: rest },
+            ..Series::default()
+        })
+    }
+
     fn is_integrated(&self, orders: &[Order]) -> bool {
-        let Self { mechanism, cycle, crankcase, known, .. } = self;
-        known.as_ref().and_then(|known| known.at(orders)).is_none()
-            && !cycle.keeps_torque_of(&mechanism.mechanism, *crankcase, orders)
+        let Self { mechanism, cycle, crankcase, .. } = self;
+        !cycle.keeps_torque_of(&mechanism.mechanism, *crankcase, orders)
     }
 
     /// The forces are internal, so that either torque balances the other.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        let [on_block, _] = self.mechanism.senses();
-        let known = self.known.as_ref().and_then(|known| known.at(orders));
-        let evaluate = || {
-            let Self { mechanism, cycle, crankcase, .. } = self;
-            cycle.torque_of(&mechanism.mechanism, *crankcase, orders, cancel)
-        };
-        let GasTorque { mean, phasors } = known.map_or_else(evaluate, Ok)?;
-        let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
-        let harmonics = TorqueHarmonics { roll, crank: phasors };
-        Ok(TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] })
-    }
-
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        let step = if self.parts().repeats == Repeats::EveryTurn { 2 } else { 1 };
-        let halves = (step..=highest.halves()).step_by(step as usize);
-        halves.filter_map(|halves| Order::from_halves(halves).ok()).collect()
-    }
-
-    /// Of tables no bound is known before they are integrated: see [`Source::up_to`].
-    fn beyond(&self, _: u32, torque: bool) -> Tail {
-        Tail { force: 0.0, torque: if torque { f64::INFINITY } else { 0.0 } }
-    }
-
-    fn has_open_tail(&self) -> bool {
-        true
-    }
-
-    fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
         let Self { mechanism, cycle, crankcase, .. } = self;
-        let (known, tails) =
-            cycle.torque_up_to(&mechanism.mechanism, *crankcase, highest, cancel)?;
-        Ok(Some((Arc::new(Self { known: Some(known), ..self.clone() }), tails)))
-    }
-
-    fn largest_torque(&self) -> f64 {
-        let torque = |degrees: u32| {
-            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
-            let pressure = self.cycle.pressure_deg(f64::from(degrees)) - self.crankcase;
-            (pressure * self.mechanism.mechanism.motion(&CrankPosition::new(sin, cos)).velocity)
-                .abs()
-        };
-        (0..720).map(torque).fold(0.0, f64::max)
+        let torque = cycle.torque_of(&mechanism.mechanism, *crankcase, orders, cancel)?;
+        Ok(self.amplitudes(torque))
     }
 
     fn scale(&self) -> Scale {
-        Scale { force: 0.0, torque: Some(0.0) }
+        Scale { force: 0.0, torque: Some(self.largest_torque()), least: LEAST_LEFT_OUT }
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
         let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
         let cycle = point.cycles.map_or(&self.cycle, |cycles| &cycles[self.place]);
-        let (cycle, known) = (Arc::clone(cycle), None);
-        Ok(Some(Arc::new(Self { mechanism, cycle, known, ..*self })))
+        Ok(Some(Arc::new(Self { mechanism, cycle: Arc::clone(cycle), ..*self })))
     }
 
     fn exact(&self) -> ExactFactor {

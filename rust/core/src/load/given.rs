@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{LoadList, Place};
+use super::{Place, Scene};
 use crate::Complex64;
 use crate::engine::{ActsOn, Crank, CrankIndex, Engine, Origin, OverSpeed, PeriodicLoad};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -15,26 +15,23 @@ use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::source::{
-    ForcePart, Parts, Point, Repeats, Scale, Scaling, Source, Tail, TorqueAmplitudes, is_equal,
-    resolved,
+    ForcePart, Parts, Point, Repeats, Scale, Scaling, Series, Source, Tail, TorqueAmplitudes, UpTo,
+    is_equal, resolved, series,
 };
 
 /// Amplitudes of some orders, ascending.
-type Series = Vec<(Order, Complex64)>;
+type Amplitudes = Vec<(Order, Complex64)>;
 
 /// Force and torques as they are, at one speed of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct GivenLoad {
     name: Arc<str>,
     scaling: Scaling,
-    force: Series,
-    /// On the block and on the main crank.
-    torque: [Series; 2],
-    mean: [f64; 2],
+    series: Series,
 }
 
 /// Adds the loads that an engine was given to a list.
-pub(super) fn push(loads: &mut LoadList, engine: &Engine) {
+pub(super) fn push(loads: &mut Scene, engine: &Engine) {
     for (k, load) in engine.loads().iter().enumerate() {
         let axis = load.shaft(engine).axis;
         for (source, direction) in directed(load, engine) {
@@ -77,7 +74,7 @@ pub(crate) fn shaft_forces(
     cancel: &Cancel,
 ) -> Result<Vec<ShaftForce>> {
     let mut forces = Vec::new();
-    for load in LoadList::of(engine, 0.0)?.list.iter().filter(|load| load.is_turning()) {
+    for load in Scene::of(engine, Some(0.0))?.list.iter().filter(|load| load.is_turning()) {
         let place = &load.place;
         let crank = engine.crank_with(place.origin);
         let force = load.weight * omega * omega * place.speed_squared();
@@ -92,7 +89,7 @@ pub(crate) fn shaft_forces(
         let (half_phase, mut waves) = (load.phase_deg.half(), Vec::new());
         for (source, direction) in directed(load, engine) {
             let Parts { force: Some(_), scaling, .. } = source.parts() else { continue };
-            let (orders, unit) = (source.orders(resolved(&*source)?), direction.cis(1));
+            let (orders, unit) = (resolved(&*source, cancel)?, direction.cis(1));
             for (order, amplitude) in orders.iter().zip(source.force(&orders, cancel)?) {
                 let halves = i64::from(order.halves());
                 let forward = 0.5 * scaling.factor(omega) * amplitude * half_phase.cis(-halves);
@@ -136,7 +133,7 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
         };
         let torque = of_row(&load.torque.0);
         let mean = torque.first().filter(|(halves, _)| *halves == 0).map_or(0.0, |(_, a)| a.re);
-        let series = |share: f64| -> Series {
+        let torque = |share: f64| -> Amplitudes {
             torque
                 .iter()
                 .filter(|(_, a)| *a * share != Complex64::ZERO)
@@ -145,11 +142,12 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
         };
         let force = of_row(&load.force.0);
         let [along, ahead] = components(&force, if load.turning { ratio.halves() } else { 0 });
-        let given = |force: Series, torque: [Series; 2], mean| {
-            Arc::new(GivenLoad { name: Arc::clone(&name), scaling, force, torque, mean })
+        let given = |force: Amplitudes, torque: [Amplitudes; 2], mean| {
+            let series = series_of(&force, &torque, mean);
+            Arc::new(GivenLoad { name: Arc::clone(&name), scaling, series })
         };
         let mean = shares.map(|share| share * mean);
-        sources.push((given(along, shares.map(series), mean), load.direction_deg));
+        sources.push((given(along, shares.map(torque), mean), load.direction_deg));
         if !ahead.is_empty() {
             sources.push((given(ahead, Default::default(), [0.0; 2]), across));
         }
@@ -178,7 +176,7 @@ fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
 
 /// A force along a direction that turns at some halves of crank speed, along that direction and a quarter turn
 /// ahead of it, both at rest: by orders, without the mean.
-fn components(force: &[(u32, Complex64)], speed: i32) -> [Series; 2] {
+fn components(force: &[(u32, Complex64)], speed: i32) -> [Amplitudes; 2] {
     let (mut along, mut across) = (Vec::new(), Vec::new());
     let speed = i64::from(speed);
     let add = |series: &mut Vec<(i64, Complex64)>, halves: i64, amplitude: Complex64| {
@@ -209,22 +207,25 @@ fn components(force: &[(u32, Complex64)], speed: i32) -> [Series; 2] {
     })
 }
 
-fn at_orders(series: &Series, orders: &[Order]) -> Vec<Complex64> {
-    let value = |order: &Order| {
-        let place = series.binary_search_by_key(order, |(own, _)| *own);
-        place.map_or(Complex64::ZERO, |k| series[k].1)
+/// The series of a force and of torques on the block and on the main crank.
+fn series_of(force: &Amplitudes, torque: &[Amplitudes; 2], mean: [f64; 2]) -> Series {
+    let [roll, crank] = torque;
+    let all = [force, roll, crank].into_iter().flatten().map(|(order, _)| *order);
+    let mut orders: Vec<Order> = all.collect();
+    orders.sort_unstable();
+    orders.dedup();
+    let at = |amplitudes: &Amplitudes| {
+        let own = |order| amplitudes.binary_search_by_key(order, |(own, _)| *own);
+        let value = |order| own(order).map_or(Complex64::ZERO, |k| amplitudes[k].1);
+        orders.iter().map(value).collect()
     };
-    orders.iter().map(value).collect()
+    let torque =
+        TorqueAmplitudes { harmonics: TorqueHarmonics { roll: at(roll), crank: at(crank) }, mean };
+    Series { force: at(force), torque, orders, rest: Tail::default() }
 }
 
-/// Sum of the sizes of orders above a number of halves.
-fn above(series: &Series, halves: u32) -> f64 {
-    let own = series.iter().filter(|(order, _)| order.halves() > halves);
-    own.map(|(_, amplitude)| amplitude.norm()).sum()
-}
-
-fn largest(series: &Series) -> f64 {
-    series.iter().map(|(_, amplitude)| amplitude.norm()).fold(0.0, f64::max)
+fn largest(amplitudes: &[Complex64]) -> f64 {
+    amplitudes.iter().map(|amplitude| amplitude.norm()).fold(0.0, f64::max)
 }
 
 impl Source for GivenLoad {
@@ -233,14 +234,13 @@ impl Source for GivenLoad {
     }
 
     fn parts(&self) -> Parts {
-        let [block, crank] = &self.torque;
-        let has_halves = [&self.force, block, crank]
-            .into_iter()
-            .flatten()
-            .any(|(order, _)| order.as_whole().is_none());
+        let Series { orders, force, torque, .. } = &self.series;
+        let TorqueHarmonics { roll, crank } = &torque.harmonics;
+        let acts = |amplitudes: &[Complex64]| amplitudes.iter().any(|a| *a != Complex64::ZERO);
+        let has_halves = orders.iter().any(|order| order.as_whole().is_none());
         Parts {
-            force: (!self.force.is_empty()).then_some(ForcePart::Along),
-            roll: !block.is_empty() || !crank.is_empty() || self.mean != [0.0; 2],
+            force: acts(force).then_some(ForcePart::Along),
+            roll: acts(roll) || acts(crank) || torque.mean != [0.0; 2],
             scaling: self.scaling,
             repeats: if has_halves { Repeats::EveryTwoTurns } else { Repeats::EveryTurn },
         }
@@ -250,35 +250,25 @@ impl Source for GivenLoad {
         is_equal(self, other)
     }
 
+    fn series(&self, _: UpTo, _: &Cancel) -> Result<Series> {
+        Ok(self.series.clone())
+    }
+
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
         cancel.check()?;
-        Ok(at_orders(&self.force, orders))
+        Ok(self.series.force_at(orders))
     }
 
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
         cancel.check()?;
-        let [roll, crank] = self.torque.each_ref().map(|series| at_orders(series, orders));
-        Ok(TorqueAmplitudes { harmonics: TorqueHarmonics { roll, crank }, mean: self.mean })
-    }
-
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        let [block, crank] = &self.torque;
-        let all = [&self.force, block, crank].into_iter().flatten().map(|(order, _)| *order);
-        let mut orders: Vec<Order> = all.filter(|order| *order <= highest).collect();
-        orders.sort_unstable();
-        orders.dedup();
-        orders
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let [block, crank] = self.torque.each_ref().map(|series| above(series, halves));
-        let torque = if torque { block.max(crank) } else { 0.0 };
-        Tail { force: above(&self.force, halves), torque }
+        Ok(self.series.torque_at(orders))
     }
 
     fn scale(&self) -> Scale {
-        let torque = self.torque.iter().map(largest).fold(0.0, f64::max);
-        Scale { force: largest(&self.force), torque: (torque > 0.0).then_some(torque) }
+        let Series { force, torque, .. } = &self.series;
+        let TorqueHarmonics { roll, crank } = &torque.harmonics;
+        let torque = largest(roll).max(largest(crank));
+        Scale { force: largest(force), torque: (torque > 0.0).then_some(torque), least: 0.0 }
     }
 }
 
@@ -338,18 +328,29 @@ impl Source for TurningForce {
         self.source.torque(orders, cancel)
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        let mut orders = if self.ahead { Vec::new() } else { self.source.orders(highest) };
-        orders.extend(self.own());
+    /// Its own order, which is always among them, and those of the torque.
+    fn series(&self, up_to: UpTo, cancel: &Cancel) -> Result<Series> {
+        let torque = |rest: Tail| if self.ahead { 0.0 } else { rest.torque };
+        let torque_alone = |rest: Tail| Tail { force: 0.0, torque: torque(rest) };
+        let Series { mut orders, mut rest, .. } = match up_to {
+            UpTo::Enough(is_enough) => {
+                let is_enough = |rest| is_enough(torque_alone(rest));
+                series(&*self.source, UpTo::Enough(&is_enough), cancel)?
+            }
+            UpTo::Halves(_) => series(&*self.source, up_to, cancel)?,
+        };
+        if self.ahead {
+            orders.clear();
+        }
+        let is_left_out = |own: &Order| matches!(up_to, UpTo::Halves(most) if own.halves() > most);
+        rest = match self.own().filter(is_left_out) {
+            Some(_) => Tail { torque: torque(rest), ..rest },
+            None => torque_alone(rest),
+        };
+        orders.extend(self.own().filter(|own| !is_left_out(own)));
         orders.sort_unstable();
         orders.dedup();
-        orders
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let has_own = self.own().is_some_and(|own| own.halves() > halves);
-        let Tail { force, torque } = self.source.beyond(halves, torque && !self.ahead);
-        Tail { force: if has_own { force } else { 0.0 }, torque }
+        Ok(Series::without_amplitudes(orders, rest))
     }
 
     fn scale(&self) -> Scale {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{GroupIndex, LoadList, SourceIndex, count, find_or_push};
+use super::{GroupIndex, Scene, SourceIndex, count, find_or_push};
 use crate::Complex64;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
@@ -17,7 +17,7 @@ pub(crate) struct SourceSum {
     pub source: Arc<dyn Source>,
     /// Index of the source.
     index: SourceIndex,
-    /// Index into [`LoadList::groups`].
+    /// Index into [`Scene::groups`].
     pub group: GroupIndex,
     pub loads: LoadSum,
 }
@@ -31,7 +31,7 @@ pub(crate) struct Kinematics {
 }
 
 impl Kinematics {
-    pub fn new(loads: &LoadList) -> Self {
+    pub fn new(loads: &Scene) -> Self {
         let (mut sums, mut zero_bounds) =
             (Vec::<SourceSum>::new(), loads.groups.map_to(|_| [0.0; 2]));
         let count = count(&loads.list, false);

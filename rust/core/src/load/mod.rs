@@ -1,4 +1,4 @@
-//! Loads on an engine, and the one sum of them; `list` has those of an engine.
+//! Loads on an engine, and the one sum of them; `scene` has those of an engine.
 //!
 //! A load has an amplitude, a direction in the cross-section, a crank angle at which it points that
 //! way, and a place along a shaft. At order n, with β the direction, φ that crank angle and ρ the
@@ -27,15 +27,15 @@
 mod gas;
 pub(crate) mod given;
 pub(crate) mod kinematics;
-mod list;
 mod piston;
 mod place;
 mod rod;
+mod scene;
 mod spectrum;
 mod unbalance;
 
-pub(crate) use self::list::{Group, LargestWeights, LoadList, Sources};
 pub(crate) use self::place::Place;
+pub(crate) use self::scene::{Group, KnownSeries, LargestWeights, Scene, Sources};
 use crate::Complex64;
 use crate::engine::Hold;
 use crate::numbers::index::{ListIndex, list_index};
@@ -44,17 +44,17 @@ use crate::source::{Column, ForcePart, Parts, Repeats};
 use crate::wrench::Planar;
 
 list_index! {
-    /// Index of a load in a [`LoadList`].
+    /// Index of a load in a [`Scene`].
     pub(crate) LoadIndex
 }
 
 list_index! {
-    /// Index of a source in a [`LoadList`].
+    /// Index of a source in a [`Scene`].
     pub(crate) SourceIndex
 }
 
 list_index! {
-    /// Index of a group in a [`LoadList`].
+    /// Index of a group in a [`Scene`].
     pub(crate) GroupIndex
 }
 

@@ -15,13 +15,24 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use crate::source::{
-    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes,
-    is_equal,
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Series, Source, Tail,
+    TorqueAmplitudes, UpTo, amplitudes, is_equal,
 };
 
 /// Force over m·r·ω², torque over m·r²·ω².
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PistonInertia(pub DrivenMechanism);
+
+impl PistonInertia {
+    /// What orders above a number of halves add.
+    fn rest(&self, halves: u32) -> Tail {
+        let (own, mechanism) = (self.0.own_highest(halves), &self.0.mechanism);
+        Tail {
+            force: mechanism.force_beyond(own).unwrap_or(f64::INFINITY),
+            torque: torque_beyond(&self.0, mechanism.torque_beyond(own)),
+        }
+    }
+}
 
 impl Source for PistonInertia {
     fn name(&self) -> &'static str {
@@ -48,28 +59,26 @@ impl Source for PistonInertia {
         torque_by(&self.0, orders, |own| self.0.mechanism.torque(own, cancel))
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        multiples(&self.0, highest)
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let (own, mechanism) = (self.0.own_highest(halves), &self.0.mechanism);
-        let of_torque = || torque_beyond(&self.0, mechanism.torque_beyond(own));
-        Tail {
-            force: mechanism.force_beyond(own).unwrap_or(f64::INFINITY),
-            torque: if torque { of_torque() } else { 0.0 },
-        }
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
+        Ok(multiples(&self.0, up_to, |halves| self.rest(halves)))
     }
 
     fn scale(&self) -> Scale {
-        Scale { force: 1.0, torque: Some(1.0) }
+        Scale { force: 1.0, torque: Some(1.0), least: 0.0 }
     }
 
-    fn grows_with_rod_ratio(&self, column: Column) -> bool {
-        self.0.mechanism.grows_with_rod_ratio(match column {
+    fn sizes_up_to_own(
+        &self,
+        column: Column,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[Vec<f64>; 2]>> {
+        let of = match column {
             Column::Force => HarmonicsOf::Force,
             Column::Roll => HarmonicsOf::Torque,
-        })
+        };
+        let rest = |halves| self.rest(halves);
+        sizes_up_to_own(self, &self.0, (of, column), orders, rest, cancel).map(Some)
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
@@ -130,11 +139,45 @@ impl Source for PistonInertia {
     }
 }
 
-/// Multiples of the speed of a mechanism's crank up to an order of the main one.
-pub(super) fn multiples(mechanism: &DrivenMechanism, highest: Order) -> Vec<Order> {
-    let halves = mechanism.ratio.halves_of_speed();
-    let own = 1..=mechanism.own_highest(highest.halves());
-    own.filter_map(|own| Order::from_halves(own * halves).ok()).collect()
+/// Multiples of the speed of a mechanism's crank, with bounds of what those above some halves add.
+pub(super) fn multiples(
+    mechanism: &DrivenMechanism,
+    up_to: UpTo,
+    rest: impl Fn(u32) -> Tail,
+) -> Series {
+    let (step, highest) = (mechanism.ratio.halves_of_speed(), up_to.halves(&rest));
+    let own = 1..=mechanism.own_highest(highest);
+    let orders = own.filter_map(|own| Order::from_halves(own * step).ok()).collect();
+    Series::without_amplitudes(orders, rest(highest))
+}
+
+/// Bounds of the sizes of amplitudes at any rod ratio and pin offset up to those of a mechanism: they themselves
+/// where all grow with the rod ratio, else that of the orders from each on.
+pub(super) fn sizes_up_to_own(
+    source: &impl Source,
+    mechanism: &DrivenMechanism,
+    (of, column): (HarmonicsOf, Column),
+    orders: &[Order],
+    rest: impl Fn(u32) -> Tail,
+    cancel: &Cancel,
+) -> Result<[Vec<f64>; 2]> {
+    if mechanism.mechanism.grows_with_rod_ratio(of) {
+        let TorqueHarmonics { roll, crank } = amplitudes(source, column, orders, cancel)?;
+        return Ok([roll, crank].map(|values| values.iter().map(|value| value.norm()).collect()));
+    }
+    let bound = |order: &Order| {
+        if order.as_whole().is_none() {
+            return 0.0;
+        }
+        let (own, halves) = (mechanism.own_highest(order.halves()), order.halves() - 1);
+        match column {
+            Column::Force => rest(halves).force + f64::from(u8::from(own == 1)),
+            Column::Roll if own < 3 => f64::INFINITY,
+            Column::Roll => rest(halves).torque,
+        }
+    };
+    let bounds: Vec<f64> = orders.iter().map(bound).collect();
+    Ok([bounds.clone(), bounds])
 }
 
 /// Bound of what own orders add to either torque on the main crank and the block from that on their own crank.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::piston::{multiples, torque_beyond, torque_by};
+use super::piston::{multiples, sizes_up_to_own, torque_beyond, torque_by};
 use crate::mechanism::exact::TorqueKey;
 use crate::mechanism::motion::Swing;
 use crate::mechanism::{DrivenMechanism, HarmonicsOf};
@@ -13,12 +13,21 @@ use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use crate::source::{
-    Column, ExactFactor, INERTIA, Parts, Point, Scale, Source, Tail, TorqueAmplitudes, is_equal,
+    Column, ExactFactor, INERTIA, Parts, Point, Scale, Series, Source, Tail, TorqueAmplitudes,
+    UpTo, is_equal,
 };
 
 /// Torque over the rod's inertia and ω².
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RodInertia(pub DrivenMechanism);
+
+impl RodInertia {
+    /// What orders above a number of halves add.
+    fn rest(&self, halves: u32) -> Tail {
+        let bound = self.0.mechanism.swing_torque_beyond(self.0.own_highest(halves));
+        Tail { force: 0.0, torque: torque_beyond(&self.0, bound) }
+    }
+}
 
 impl Source for RodInertia {
     fn name(&self) -> &'static str {
@@ -41,23 +50,23 @@ impl Source for RodInertia {
         torque_by(&self.0, orders, |own| self.0.mechanism.swing_torque(own, cancel))
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        multiples(&self.0, highest)
-    }
-
-    fn beyond(&self, halves: u32, torque: bool) -> Tail {
-        let own = self.0.own_highest(halves);
-        let bound = || torque_beyond(&self.0, self.0.mechanism.swing_torque_beyond(own));
-        Tail { force: 0.0, torque: if torque { bound() } else { 0.0 } }
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
+        Ok(multiples(&self.0, up_to, |halves| self.rest(halves)))
     }
 
     /// Of order 1 it makes about J·r/l.
     fn scale(&self) -> Scale {
-        Scale { force: 0.0, torque: Some(self.0.mechanism.rod_ratio()) }
+        Scale { torque: Some(self.0.mechanism.rod_ratio()), ..Scale::default() }
     }
 
-    fn grows_with_rod_ratio(&self, _: Column) -> bool {
-        self.0.mechanism.grows_with_rod_ratio(HarmonicsOf::SwingTorque)
+    fn sizes_up_to_own(
+        &self,
+        column: Column,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[Vec<f64>; 2]>> {
+        let (of, rest) = (HarmonicsOf::SwingTorque, |halves| self.rest(halves));
+        sizes_up_to_own(self, &self.0, (of, column), orders, rest, cancel).map(Some)
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {

@@ -7,7 +7,9 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
-use crate::source::{ExactFactor, ForcePart, INERTIA, Parts, Scale, Source, Tail, is_equal};
+use crate::source::{
+    ExactFactor, ForcePart, INERTIA, Parts, Scale, Series, Source, UpTo, is_equal,
+};
 
 /// Force over ω², kg·m: masses and radius are in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,22 +38,14 @@ impl Source for GivenForce {
         })
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
         let own = self.spectrum.orders().into_iter();
-        let orders =
-            own.filter_map(|own| Order::from_halves(own * self.ratio.halves_of_speed()).ok());
-        orders.filter(|order| *order <= highest).collect()
-    }
-
-    /// All of its orders are evaluated: no bound does without them.
-    fn beyond(&self, halves: u32, _: bool) -> Tail {
-        let mut own = self.spectrum.orders().into_iter();
-        let is_left_out = own.any(|own| own * self.ratio.halves_of_speed() > halves);
-        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
+        let order = |own| Order::from_halves(own * self.ratio.halves_of_speed());
+        Ok(Series::unbounded(own.filter_map(|own| order(own).ok()).collect(), up_to))
     }
 
     fn scale(&self) -> Scale {
-        Scale { force: self.spectrum.largest(), torque: Some(0.0) }
+        Scale { force: self.spectrum.largest(), torque: Some(0.0), least: 0.0 }
     }
 
     fn exact(&self) -> ExactFactor {

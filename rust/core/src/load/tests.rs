@@ -74,8 +74,8 @@ pub(crate) fn engine() -> Engine {
         .unwrap()
 }
 
-fn loads(engine: &Engine) -> LoadList {
-    LoadList::new(engine, REFERENCE)
+fn loads(engine: &Engine) -> Scene {
+    Scene::anew(engine, REFERENCE)
 }
 
 fn whole(order: u32) -> Order {
@@ -83,7 +83,7 @@ fn whole(order: u32) -> Order {
 }
 
 /// Sums of one order.
-fn sums(loads: &LoadList, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
+fn sums(loads: &Scene, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
     loads.sums(&loads.list, whole(order), Wanted { planar: true, roll: true, by_bank })
 }
 
@@ -210,13 +210,7 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let above: Vec<Load> = loads.list.iter().filter(is_gas).copied().collect();
     for load in &above {
         let mechanism = loads.source(load).mechanism().unwrap().clone();
-        let gas = GasPressure {
-            mechanism,
-            cycle: Arc::clone(&cycle),
-            place: 0,
-            crankcase: 0.0,
-            known: None,
-        };
+        let gas = GasPressure { mechanism, cycle: Arc::clone(&cycle), place: 0, crankcase: 0.0 };
         loads.push(load.place, gas, 0.0, -0.8 * load.roll);
     }
     let degrees: Vec<f64> = (0..200).map(|k| 3.7 * f64::from(k)).collect();
@@ -229,7 +223,9 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
         sum.source.over_angle(&sum.loads, &block, wanted, factor, &mut columns).unwrap();
     }
     let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
-    let by_orders = wrenches(&loads, &loads.sources, true, &orders, &Cancel::new()).unwrap();
+    let by_orders =
+        wrenches(&loads, (&loads.sources, &KnownSeries::default()), true, &orders, &Cancel::new())
+            .unwrap();
     let firing = [10.0, 130.0 + 360.0, 255.0];
     let lengths = [(0.05, 0.15), (0.04, 0.12), (0.05, 0.15)];
     for (k, &theta) in degrees.iter().enumerate() {
@@ -264,18 +260,19 @@ fn loads_cycle(degrees: f64) -> f64 {
     1e5 * (2.0 + degrees.to_radians().cos())
 }
 
-/// What is known of pressure's torque at one rod ratio is not that at another, nor that of another cycle.
+/// The series of pressure's torque is that of its rod ratio and cycle.
 #[test]
 fn pressure_at_another_point_is_evaluated_anew() {
     let (engine, _) = fired([Some(0); 3]);
     let (loads, cancel) = (loads(&engine), Cancel::new());
     let source = &loads.sources[SourceIndex::new(GAS.start)];
     let orders = Order::all_whole(&[1, 2, 3]).unwrap();
-    let torque = |source: &dyn source::Source| {
-        let found = source.torque(&orders, &cancel).unwrap();
-        (found.harmonics.roll, found.harmonics.crank, found.mean)
+    let both = |source: &dyn source::Source| {
+        let series = source.series(source::UpTo::Halves(8), &cancel).unwrap();
+        [series.torque_at(&orders), source.torque(&orders, &cancel).unwrap()]
+            .map(|torque| (torque.harmonics.roll, torque.harmonics.crank, torque.mean))
     };
-    let (known, _) = source.up_to(whole(4), &cancel).unwrap().unwrap();
+    let [known, _] = both(&**source);
     let theta_deg = (0..72).map(|k| 10.0 * f64::from(k)).collect();
     let pressure = (0..72).map(|k| 1e5 + 1e3 * f64::from(k * (72 - k))).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
@@ -286,10 +283,11 @@ fn pressure_at_another_point_is_evaluated_anew() {
         source::Point { cycles: Some(&cycles), ..source::Point::default() },
     ];
     for point in points {
-        let [once, fresh] =
-            [&known, source].map(|source| crate::source::at_point(source, &point).unwrap());
-        assert_eq!(torque(&*once), torque(&*fresh));
-        assert_ne!(torque(&*once), torque(&*known));
+        let [series, torque] = both(&*source::at_point(source, &point).unwrap());
+        for (a, b) in series.0.iter().zip(&torque.0) {
+            assert!((a - b).norm() <= 1e-13 * a.norm(), "{a} {b}");
+        }
+        assert_ne!(series, known);
     }
 }
 
@@ -323,7 +321,7 @@ fn equal_pistons_share_a_source() {
     assert_eq!(loads(&halved).sources.len(), 4);
     // A spectrum has the masses in it.
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
-    let given = LoadList::new(&engine().with_spectrum(spectrum.clone()), REFERENCE);
+    let given = Scene::anew(&engine().with_spectrum(spectrum.clone()), REFERENCE);
     assert!(given.sources.iter().all(|source| source.mechanism().is_none()));
     let orders = Order::all_whole(&[1, 2, 3]).unwrap();
     let force = given.sources[SourceIndex::default()].force(&orders, &Cancel::new()).unwrap();

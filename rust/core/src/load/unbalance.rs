@@ -8,7 +8,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities};
 use crate::source::{
-    ExactFactor, ForcePart, INERTIA, Parts, Repeats, Scale, Source, Tail, is_equal,
+    ExactFactor, ForcePart, INERTIA, Parts, Repeats, Scale, Series, Source, UpTo, is_equal,
 };
 
 /// Force over unbalance, ω² and the square of the shaft's speed, which this is.
@@ -43,19 +43,12 @@ impl Source for TurningUnbalance {
         Ok(orders.iter().map(one).collect())
     }
 
-    fn orders(&self, highest: Order) -> Vec<Order> {
-        let own = self.ratio.order();
-        own.into_iter().filter(|own| *own <= highest).collect()
-    }
-
-    /// Its only order is always evaluated: no bound does without it.
-    fn beyond(&self, halves: u32, _: bool) -> Tail {
-        let is_left_out = self.ratio.halves_of_speed() > halves;
-        Tail { force: if is_left_out { f64::INFINITY } else { 0.0 }, torque: 0.0 }
+    fn series(&self, up_to: UpTo, _: &Cancel) -> Result<Series> {
+        Ok(Series::unbounded(self.ratio.order().into_iter().collect(), up_to))
     }
 
     fn scale(&self) -> Scale {
-        Scale { force: 1.0, torque: None }
+        Scale { force: 1.0, ..Scale::default() }
     }
 
     fn exact(&self) -> ExactFactor {

@@ -28,10 +28,9 @@ pub struct GasTorque {
 
 impl GasTorque {
     /// The phasors of some orders, of one that has all halves up to the highest of them.
-    pub(crate) fn at(&self, orders: &[Order]) -> Option<Self> {
-        let phasor = |order: &Order| self.phasors.get(order.halves() as usize - 1).copied();
-        let phasors = orders.iter().map(phasor).collect::<Option<_>>()?;
-        Some(Self { mean: self.mean, phasors })
+    pub(crate) fn at(&self, orders: &[Order]) -> Self {
+        let phasor = |order: &Order| self.phasors[order.halves() as usize - 1];
+        Self { mean: self.mean, phasors: orders.iter().map(phasor).collect() }
     }
 }
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::load::{
-    GroupIndex, Harmonic, Load, LoadList, Phasors, SourceIndex, Sources, Wanted, count, superpose,
+    GroupIndex, Harmonic, KnownSeries, Load, Phasors, Scene, SourceIndex, Sources, Wanted, count,
+    superpose,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -21,15 +22,15 @@ pub(crate) type Means = List<GroupIndex, [f64; 2]>;
 /// with, and the mean torques of each group; what vanishes to within rounding is zero.
 ///
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it. `sources` are those
-/// of the loads.
+/// of the loads, whose series may be known.
 pub(crate) fn wrenches(
-    loads: &LoadList,
-    sources: &Sources,
+    loads: &Scene,
+    (sources, known): (&Sources, &KnownSeries),
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
 ) -> Result<(Vec<Wrench>, Means)> {
-    let amplitudes = SourceAmplitudes::new(sources, torque, orders, cancel)?;
+    let amplitudes = SourceAmplitudes::of_known(sources, known, torque, orders, cancel)?;
     let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
     Ok((wrenches, amplitudes.means(loads, &loads.list)))
 }
@@ -55,22 +56,41 @@ pub(crate) struct Amplitude {
 
 impl SourceAmplitudes {
     pub fn new(sources: &Sources, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
+        Self::of_known(sources, &KnownSeries::default(), torque, orders, cancel)
+    }
+
+    /// Of sources whose series are known, as far as they are.
+    fn of_known(
+        sources: &Sources,
+        known: &KnownSeries,
+        torque: bool,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let force = |source: &Arc<dyn Source>| {
             if source.parts().force.is_some() { source.force(orders, cancel) } else { Ok(vec![]) }
         };
-        let torques = |source: &Arc<dyn Source>| {
-            (torque && source.parts().roll).then(|| source.torque(orders, cancel)).transpose()
+        let torques = |(k, source): (SourceIndex, &Arc<dyn Source>)| {
+            if !torque || !source.parts().roll {
+                return Ok(None);
+            }
+            let known = known.get(k.position());
+            let known = known.filter(|series| series.knows_torque_up_to(orders.last()));
+            match known {
+                Some(series) => Ok(Some(series.torque_at(orders))),
+                None => source.torque(orders, cancel).map(Some),
+            }
         };
         Ok(Self {
             force: sources.iter().map(force).collect::<Result<_>>()?,
-            torque: sources.iter().map(torques).collect::<Result<_>>()?,
+            torque: sources.indices().zip(sources).map(torques).collect::<Result<_>>()?,
         })
     }
 
     /// Wrenches of some of an engine's loads at the orders of these amplitudes; as [`wrenches`].
     pub fn wrenches(
         &self,
-        loads: &LoadList,
+        loads: &Scene,
         some: &[Load],
         torque: bool,
         orders: &[Order],
@@ -110,7 +130,7 @@ impl SourceAmplitudes {
     }
 
     /// Mean torques on the block and on the crank, of some of an engine's loads, by group.
-    pub fn means(&self, loads: &LoadList, some: &[Load]) -> Means {
+    pub fn means(&self, loads: &Scene, some: &[Load]) -> Means {
         let mut means = loads.groups.map_to(|_| [0.0; 2]);
         for load in some {
             let Some(torque) = &self.torque[load.source] else { continue };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{GroupIndex, Load, LoadList, count};
+use crate::load::{GroupIndex, Load, Scene, count};
 pub use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -227,7 +227,7 @@ impl Balance {
 
     /// Of wrenches of some of an engine's loads, by order and group, at a speed, rad/s.
     pub(super) fn of(
-        loads: &LoadList,
+        loads: &Scene,
         some: &[Load],
         orders: Vec<Order>,
         wrenches: &[Wrench],
@@ -411,9 +411,9 @@ pub fn balance(
 ) -> Result<Balance> {
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
-    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
+    let loads = Scene::of(engine, request.reference_z)?;
     let torque = request.torque && engine.spectrum().is_none();
-    let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
+    let chosen = choice::evaluated(&loads, orders, torque, cancel)?;
     let mut balance = chosen.at_speed(&loads, omega)?;
     balance.has_torque = torque;
     Ok(balance)

@@ -5,35 +5,26 @@
 //! rest is bounded in closed form; so the bound is loose only where the orders left out do not peak
 //! together.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::engine::Engine;
 use crate::load::{
-    Group, GroupIndex, LargestWeights, Load, LoadList, Sources, count, find_or_push,
+    Group, GroupIndex, KnownSeries, LargestWeights, Load, Scene, SourceIndex, Sources, count,
 };
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::index::{List, ListIndex, distinct};
+use crate::numbers::index::{List, distinct};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
 use crate::readings::balance::{Balance, ErrorBounds, Orders};
-use crate::source::{Repeats, Scale, Source, Tail};
+use crate::source::{Scale, Series, Source, Tail, UpTo, series};
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
 const NEGLIGIBLE_REST: f64 = 0.01;
-
-/// Part of the largest torque of an integrated load that orders may leave out, at least: those of pressure
-/// decline slowly.
-const LEAST_OF_INTEGRATED: f64 = 1e-3;
-/// Highest order of an integrated torque that is evaluated; that of a cycle in which pressure jumps declines
-/// like 1/n.
-const HIGHEST_INTEGRATED: u32 = 192;
-
-/// Order up to which a torque is integrated first; then to four times it, as far as
-/// [`HIGHEST_INTEGRATED`].
-const FIRST_INTEGRATED: u32 = 48;
+/// Part of the tolerance that they may add where orders decline slowly, or where no order achieves less.
+const LARGEST_REST: f64 = 0.25;
 
 /// Largest number of given orders that are kept with an engine.
 const MOST_ORDERS_KEPT: usize = 100;
@@ -54,7 +45,7 @@ pub(crate) struct Chosen {
 
 impl Chosen {
     /// What the orders that are left out add at most at some speeds, rad/s.
-    pub fn error_bound(&self, loads: &LoadList, omegas: &[f64]) -> ErrorBounds {
+    pub fn error_bound(&self, loads: &Scene, omegas: &[f64]) -> ErrorBounds {
         let at = |&omega: &f64| bounds(&self.left_out, &loads.groups, omega);
         omegas.iter().map(at).fold(ErrorBounds::default(), ErrorBounds::max)
     }
@@ -75,7 +66,7 @@ impl Chosen {
     }
 
     /// The balance at a speed, rad/s.
-    pub fn at_speed(&self, loads: &LoadList, omega: f64) -> Result<Balance> {
+    pub fn at_speed(&self, loads: &Scene, omega: f64) -> Result<Balance> {
         let Self { orders, kept, wrenches, means, left_out } = self;
         let all = Balance::of(loads, &loads.list, orders.clone(), wrenches, means, omega)?;
         Ok(all.keep(kept, bounds(left_out, &loads.groups, omega)))
@@ -96,6 +87,15 @@ impl OrderSums {
     pub fn of(wrench: &Wrench) -> Self {
         let Wrench { force, moment, torque } = wrench;
         Self { force: force.peak(), moment: moment.peak(), torque: torque.peak() }
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Self) -> Self {
+        let larger = |(own, other): (f64, f64)| own.max(other);
+        let [force, moment, torque] =
+            [(self.force, other.force), (self.moment, other.moment), (self.torque, other.torque)]
+                .map(larger);
+        Self { force, moment, torque }
     }
 
     /// Side by side.
@@ -120,21 +120,20 @@ pub(crate) fn bounds(left_out: &[OrderSums], groups: &[Group], omega: f64) -> Er
     sum
 }
 
-/// An engine whose orders are chosen: its loads, and their sources where harmonics decrease most slowly.
+/// An engine whose orders are chosen: its loads, their sources, of which tolerances are parts, and the same where
+/// harmonics decrease most slowly.
 pub(crate) struct Candidate<'a> {
-    pub engine: &'a Engine,
-    pub loads: &'a LoadList,
-    pub sources: Sources,
-    /// Whether it is the one before it with other cycles.
-    pub repeats: bool,
+    pub loads: &'a Scene,
+    pub own: Cow<'a, Sources>,
+    pub sources: Cow<'a, Sources>,
 }
 
 /// The choice of a few orders for some engines, whose sizes are still to be evaluated.
 pub(crate) struct Choice {
     /// Orders to evaluate, ascending.
     pub orders: Vec<Order>,
-    /// Orders of the torques of each engine that are integrated.
-    pub integrated: Vec<IntegratedOrders>,
+    /// Series of the sources of each engine up to these orders.
+    pub series: Vec<KnownSeries>,
     /// Bounds of what orders above those add, of each engine and group.
     pub rest: Vec<List<GroupIndex, OrderSums>>,
     /// What may be left out, of each engine and group.
@@ -145,46 +144,23 @@ impl Choice {
     /// Among the orders that leave out at most `rtol`.
     pub fn new(rtol: f64, candidates: &[Candidate], torque: bool, cancel: &Cancel) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
-        let (mut orders, mut all_scales) = (Vec::new(), Vec::new());
-        for Candidate { engine, loads, sources, repeats } in candidates {
+        let (mut orders, mut series, mut allowed) = (Vec::new(), Vec::new(), Vec::new());
+        for Candidate { loads, own, sources } in candidates {
             cancel.check()?;
-            let scales = scales(engine, loads);
-            if !repeats {
-                orders.extend(self::candidates(rtol, &scales, loads, sources, torque)?);
-            }
-            all_scales.push(scales);
+            let scales = scales(loads, own, torque);
+            let known = self::candidates(rtol, &scales, loads, sources, torque, cancel)?;
+            orders.extend(known.iter().flat_map(|series| &series.orders));
+            series.push(known);
+            allowed.extend(scales.iter().flat_map(|scale| scale.allowed(rtol)));
         }
         orders.sort_unstable();
         orders.dedup();
-        // As far as the others at once, which have a part of it too.
-        let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
-        let highest = last.clamp(FIRST_INTEGRATED, HIGHEST_INTEGRATED);
-        let (mut integrated, mut all) = (Vec::new(), orders.clone());
-        let (mut rest, mut allowed) = (Vec::<List<GroupIndex, OrderSums>>::new(), Vec::new());
-        for (Candidate { loads, sources, repeats, .. }, scales) in candidates.iter().zip(all_scales)
-        {
-            let mut above = match rest.last() {
-                Some(before) if *repeats => before.clone(),
-                _ => tail(loads, &orders, torque, sources),
-            };
-            let of_engine = if torque {
-                IntegratedOrders::new(rtol, loads, sources, highest, cancel)?
-            } else {
-                IntegratedOrders { sources: sources.clone(), ..IntegratedOrders::default() }
-            };
-            allowed.extend(scales.iter().flat_map(|scales| scales.values()).map(|one| rtol * one));
-            let first = allowed.len() - 3 * scales.len();
-            for &IntegratedGroup { group, tail, allowed: own } in &of_engine.groups {
-                above[group].torque = tail;
-                allowed[first + 3 * group.position() + 2] = own;
-            }
-            rest.push(above);
-            all.extend(&of_engine.orders);
-            integrated.push(of_engine);
+        let mut rest = Vec::new();
+        for (Candidate { loads, sources, .. }, series) in candidates.iter().zip(&mut series) {
+            let rests = rests(loads, sources, series, &orders, torque, cancel)?;
+            rest.push(sum_of_rests(loads, &rests, torque));
         }
-        all.sort_unstable();
-        all.dedup();
-        Ok(Self { orders: all, integrated, rest, allowed })
+        Ok(Self { orders, series, rest, allowed })
     }
 
     /// Which orders are kept, of sizes of each order, engine and group, and bounds of what each engine
@@ -203,56 +179,44 @@ impl Choice {
     }
 }
 
-/// Orders of all loads of an engine that are given, or chosen; the last ones are kept with it, since they
+/// Orders of all loads of an engine that are given, or chosen; the last ones are kept with them, since they
 /// serve any speed.
 pub(crate) fn evaluated(
-    engine: &Engine,
-    loads: &LoadList,
+    loads: &Scene,
     orders: &Orders,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Arc<Chosen>> {
-    type Known = ((f64, bool), Orders, Arc<Chosen>);
-    let new = || Ok(Arc::new(evaluated_anew(engine, loads, orders, torque, cancel)?));
+    type Known = (bool, Orders, Arc<Chosen>);
+    let new = || Ok(Arc::new(evaluated_anew(loads, orders, torque, cancel)?));
     if matches!(orders, Orders::Given(orders) if orders.len() > MOST_ORDERS_KEPT) {
         return new();
     }
-    let of = (loads.reference, torque);
-    let is_such = |(own, known, _): &Known| *own == of && known == orders;
-    let known = engine.kept().get(is_such, || Ok((of, orders.clone(), new()?)))?;
+    let is_such = |(with_torque, known, _): &Known| *with_torque == torque && known == orders;
+    let known = loads.kept.get(is_such, || Ok((torque, orders.clone(), new()?)))?;
     Ok(Arc::clone(&known.2))
 }
 
-fn evaluated_anew(
-    engine: &Engine,
-    loads: &LoadList,
-    orders: &Orders,
-    torque: bool,
-    cancel: &Cancel,
-) -> Result<Chosen> {
+fn evaluated_anew(loads: &Scene, orders: &Orders, torque: bool, cancel: &Cancel) -> Result<Chosen> {
     match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let (wrenches, means) = wrenches(loads, &loads.sources, torque, orders, cancel)?;
+            let sources = (&loads.sources, &KnownSeries::default());
+            let (wrenches, means) = wrenches(loads, sources, torque, orders, cancel)?;
             let left_out = loads.groups.map_to(|_| OrderSums::default());
             let kept = vec![true; orders.len()];
             Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
         }
-        Orders::Auto { rtol } => within(*rtol, engine, loads, torque, cancel),
+        Orders::Auto { rtol } => within(*rtol, loads, torque, cancel),
     }
 }
 
 /// The orders of an engine that leave out at most `rtol`.
-pub(crate) fn within(
-    rtol: f64,
-    engine: &Engine,
-    loads: &LoadList,
-    torque: bool,
-    cancel: &Cancel,
-) -> Result<Chosen> {
-    let alone = Candidate { engine, loads, sources: loads.sources.clone(), repeats: false };
+pub(crate) fn within(rtol: f64, loads: &Scene, torque: bool, cancel: &Cancel) -> Result<Chosen> {
+    let own = Cow::Borrowed(&loads.sources);
+    let alone = Candidate { loads, sources: own.clone(), own };
     let choice = Choice::new(rtol, &[alone], torque, cancel)?;
-    let sources = &choice.integrated[0].sources;
+    let sources = (&loads.sources, &choice.series[0]);
     let (wrenches, means) = wrenches(loads, sources, torque, &choice.orders, cancel)?;
     let sizes: Vec<OrderSums> = wrenches.iter().map(OrderSums::of).collect();
     let (kept, mut left_out) = choice.few(&sizes);
@@ -262,24 +226,23 @@ pub(crate) fn within(
 
 /// Orders of which each cylinder and each further load alone leaves out at most `rtol`, as if nothing
 /// cancelled, with those of shafts and counterweights; and bounds at a speed, rad/s, of what all of them
-/// leave out. Without what is integrated.
+/// leave out.
 pub(crate) fn within_each(
     rtol: f64,
-    engine: &Engine,
-    loads: &LoadList,
+    loads: &Scene,
     (torque, omega): (bool, f64),
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, ErrorBounds)> {
-    let closed = loads.list.iter().filter(|load| !loads.source(load).has_open_tail());
-    let (turning, others): (Vec<Load>, Vec<Load>) = closed.partition(|load| load.is_turning());
+    let (turning, others): (Vec<Load>, Vec<Load>) =
+        loads.list.iter().copied().partition(Load::is_turning);
     let mut orders =
         turning.iter().map(|load| load.place.ratio.order()).collect::<Result<Vec<_>>>()?;
     let mut left_out = loads.groups.map_to(|_| OrderSums::default());
     let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
     for origin in origins.indices() {
         let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
-        let alone = LoadList { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
-        let chosen = within(rtol, engine, &alone, torque, cancel)?;
+        let alone = Scene { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
+        let chosen = within(rtol, &alone, torque, cancel)?;
         let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
         orders.extend(kept.map(|(order, _)| *order));
         for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
@@ -316,107 +279,126 @@ fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<b
     kept
 }
 
-/// Orders to evaluate, ascending.
+/// Series of orders to evaluate, of sources in place of those of the loads: at the point of a sweep where their
+/// harmonics decrease most slowly.
 ///
 /// What higher orders add is at most [`NEGLIGIBLE_REST`] times the tolerance, or, if no order achieves
-/// that, at most a quarter of it. `sources` are those of the loads, at the point of a sweep where their
-/// harmonics decrease most slowly.
+/// that, at most [`LARGEST_REST`]. Of sources whose orders decline slowly that is enough, or the highest that
+/// they evaluate: then more is left out than the tolerance.
 fn candidates(
     rtol: f64,
-    scales: &List<GroupIndex, OrderSums>,
-    loads: &LoadList,
+    scales: &List<GroupIndex, GroupScale>,
+    loads: &Scene,
     sources: &Sources,
     torque: bool,
-) -> Result<Vec<Order>> {
+    cancel: &Cancel,
+) -> Result<KnownSeries> {
     let count = count(&loads.list, torque) as f64;
-    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE_REST * rtol / count);
-    let mut orders = Vec::new();
-    let closed = sources.indices().zip(sources).filter(|(_, source)| !source.has_open_tail());
-    for (k, source) in closed {
+    let (needed, enough) = (LARGEST_REST * rtol / count, NEGLIGIBLE_REST * rtol / count);
+    let candidate = |(k, source): (SourceIndex, &Arc<dyn Source>)| {
+        if !counts(&**source, torque) {
+            return Ok(Series::default());
+        }
+        let GroupScale { sums, least, weight } = &scales[loads.group_of[k]];
+        if *least > 0.0 && source.parts().force.is_none() {
+            let most = LARGEST_REST * rtol.max(*least) * sums.torque;
+            if most == 0.0 {
+                return Ok(Series::default());
+            }
+            let is_enough = |rest: Tail| times(*weight, rest.torque) <= most;
+            return series(&**source, UpTo::Enough(&is_enough), cancel);
+        }
         // What a weight is over that which the tolerance is relative to.
         let LargestWeights { force, arm, roll } = loads.largest_weights(k);
-        let scales = &scales[loads.group_of[k]];
         let share = |weight: f64, scale: f64| if weight == 0.0 { 0.0 } else { weight / scale };
-        let (force, arm) = (share(force, scales.force), share(arm, scales.torque));
-        let roll = share(roll, scales.torque);
-        let within = |highest: u32, tolerance: f64| {
-            let beyond = source.beyond(2 * highest, torque && roll > 0.0);
-            let of_torque = times(roll, beyond.torque) + times(arm, beyond.force);
-            times(force, beyond.force) <= tolerance && (!torque || of_torque <= tolerance)
+        let (force, arm) = (share(force, sums.force), share(arm, sums.torque));
+        let roll = share(roll, sums.torque);
+        let within = |rest: Tail, tolerance: f64| {
+            let of_torque = times(roll, rest.torque) + times(arm, rest.force);
+            times(force, rest.force) <= tolerance && (!torque || of_torque <= tolerance)
         };
-        let highest = match lowest(|highest| within(highest, enough)) {
-            Some(order) => order,
-            // A rest that is not negligible still is within the tolerance.
-            None if within(limits::HIGHEST_ORDER, needed) => limits::HIGHEST_ORDER,
-            None => {
-                let ratio = source.mechanism().map_or(0.0, |of| of.mechanism.rod_ratio());
-                let hint = format!(
-                    "too many orders would be needed at a rod ratio of {ratio:?}; ask for exact \
-                     kinematics or a larger rtol"
-                );
-                return Err(Error::figure("rtol", rtol, hint));
-            }
-        };
-        orders.extend(source.orders(Order::whole(highest)?));
-    }
-    orders.sort_unstable();
-    orders.dedup();
-    Ok(orders)
+        let series = series(&**source, UpTo::Enough(&|rest| within(rest, enough)), cancel)?;
+        // A rest that is not negligible still is within the tolerance.
+        if within(series.rest, needed) {
+            return Ok(series);
+        }
+        let ratio = source.mechanism().map_or(0.0, |of| of.mechanism.rod_ratio());
+        let hint = format!(
+            "too many orders would be needed at a rod ratio of {ratio:?}; ask for exact kinematics \
+             or a larger rtol"
+        );
+        Err(Error::figure("rtol", rtol, hint))
+    };
+    sources.indices().zip(sources).map(candidate).collect()
 }
 
-/// Lowest order from 1 on that is enough, as all above it are; none if the highest is not.
-fn lowest(is_enough: impl Fn(u32) -> bool) -> Option<u32> {
-    // Mostly it is low: doubling asks less often than halving what there is.
-    let (mut low, mut high) = (1, 1);
-    while !is_enough(high) {
-        if high == limits::HIGHEST_ORDER {
-            return None;
-        }
-        (low, high) = (high + 1, limits::HIGHEST_ORDER.min(2 * high));
-    }
-    while low < high {
-        let middle = u32::midpoint(low, high);
-        if is_enough(middle) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    Some(high)
+/// Whether a source acts in what is wanted.
+fn counts(source: &dyn Source, torque: bool) -> bool {
+    torque || source.parts().force.is_some()
 }
 
-/// Bounds over ω² of what orders beyond those evaluated add to force, moment and torque, as if nothing
-/// cancelled, with these sources in place of those of the loads.
-fn tail(
-    loads: &LoadList,
+/// Bounds of what orders beyond those evaluated add to each source in place of one of the loads; series that do
+/// not reach the last of them are continued.
+pub(crate) fn rests(
+    loads: &Scene,
+    sources: &Sources,
+    known: &mut KnownSeries,
     evaluated: &[Order],
     torque: bool,
-    sources: &Sources,
-) -> List<GroupIndex, OrderSums> {
+    cancel: &Cancel,
+) -> Result<List<SourceIndex, Tail>> {
+    debug_assert_eq!(loads.sources.len(), sources.len());
+    let rest = |(source, known): (&Arc<dyn Source>, &mut Series)| {
+        if !counts(&**source, torque) {
+            return Ok(Tail::default());
+        }
+        rest(&**source, known, evaluated, cancel)
+    };
+    sources.iter().zip(known.iter_mut()).map(rest).collect()
+}
+
+/// Bounds of what orders of a source beyond those evaluated add; of its series as far as it is known, which is
+/// continued up to the last of them.
+pub(crate) fn rest(
+    source: &dyn Source,
+    known: &mut Series,
+    evaluated: &[Order],
+    cancel: &Cancel,
+) -> Result<Tail> {
     let last = evaluated.last();
+    // What bounds all orders above those known so far bounds those that are left out of them.
+    let most = if known.orders.is_empty() { Tail::UNKNOWN } else { known.rest };
+    if known.orders.last() < last || last.is_none() {
+        *known = series(source, UpTo::Halves(last.map_or(0, |last| last.halves())), cancel)?;
+    }
     // Another source may have the last order: those from the first one missing on are left out.
     let is_missing = |own: &Order| evaluated.binary_search(own).is_err();
-    let beyond = |source: &Arc<dyn Source>| {
-        if source.has_open_tail() {
-            return Tail::default();
-        }
-        let own = last.map_or_else(Vec::new, |&last| source.orders(last));
-        let missing = own.into_iter().filter(is_missing).min();
-        let evaluated = last.map_or(0, |order| order.halves());
-        source.beyond(missing.map_or(evaluated, |order| order.halves() - 1), torque)
+    let rest = match known.orders.iter().find(|own| is_missing(own)) {
+        None => known.rest,
+        Some(_) if known.has_amplitudes() => known.left_out(|order| is_missing(&order)),
+        Some(first) => series(source, UpTo::Halves(first.halves() - 1), cancel)?.rest,
     };
-    let beyond = sources.map_to(beyond);
+    Ok(Tail { force: rest.force.min(most.force), torque: rest.torque.min(most.torque) })
+}
+
+/// Bounds over what groups scale with of what the rests of sources add to force, moment and torque, as if nothing
+/// cancelled.
+pub(crate) fn sum_of_rests(
+    loads: &Scene,
+    rests: &List<SourceIndex, Tail>,
+    torque: bool,
+) -> List<GroupIndex, OrderSums> {
     let mut sums = loads.groups.map_to(|_| OrderSums::default());
     for load in &loads.list {
-        let (place, beyond) = (&load.place, beyond[load.source]);
+        let (place, rest) = (&load.place, rests[load.source]);
         let square = place.speed_squared();
-        let force = times(load.weight.abs(), beyond.force) * square;
+        let force = times(load.weight.abs(), rest.force) * square;
         let sum = &mut sums[loads.group_of[load.source]];
         sum.force += force;
         sum.moment += times(place.lever(loads.reference).abs(), force);
         if torque {
             sum.torque +=
-                times(load.roll.abs(), beyond.torque) * square + times(place.axis.norm(), force);
+                times(load.roll.abs(), rest.torque) * square + times(place.axis.norm(), force);
         }
     }
     sums
@@ -427,115 +409,56 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
     if weight == 0.0 || bound == 0.0 { 0.0 } else { weight * bound }
 }
 
+/// What a tolerance is relative to, of a group over what it scales with.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct GroupScale {
+    sums: OrderSums,
+    /// Smallest tolerance of the torque that counts.
+    least: f64,
+    /// Sum of the weights of torques.
+    weight: f64,
+}
+
+impl GroupScale {
+    /// What of force, moment and torque may be left out.
+    fn allowed(&self, rtol: f64) -> [f64; 3] {
+        let [force, moment, torque] = self.sums.values();
+        [rtol * force, rtol * moment, rtol.max(self.least) * torque]
+    }
+}
+
 /// What a tolerance is relative to, of each group over what it scales with: for force the largest m·r of a
 /// cylinder, amplitude of a spectrum or load, or unbalance; for moment that times the longest lever of a
-/// load that has weight; for torque the largest m·r², amplitude of a torque, or force times crank radius or
-/// the distance of its axis from the crank. Where rod inertia makes more of order 1, what it makes: about
-/// J·r/l.
-fn scales(engine: &Engine, loads: &LoadList) -> List<GroupIndex, OrderSums> {
-    let mut scales = loads.groups.map_to(|_| OrderSums::default());
+/// load that has weight; for torque the largest m·r², amplitude of a torque, largest torque of pressure, or force
+/// times crank radius or the distance of its axis from the crank. Where rod inertia makes more of order 1, what
+/// it makes: about J·r/l.
+fn scales(loads: &Scene, sources: &Sources, torque: bool) -> List<GroupIndex, GroupScale> {
+    let mut scales = loads.groups.map_to(|_| GroupScale::default());
     let mut levers = loads.groups.map_to(|_| 0.0_f64);
+    let of_sources = sources.map_to(|source| counts(&**source, torque).then(|| source.scale()));
     for load in &loads.list {
         let (place, group) = (&load.place, loads.group_of[load.source]);
-        let Scale { force: of_force, torque: of_torque } = loads.source(load).scale();
+        let Some(Scale { force: of_force, torque: of_torque, least }) = of_sources[load.source]
+        else {
+            continue;
+        };
         let own = load.weight.abs() * of_force;
-        let arm = || engine.largest_crank_radius().max(place.axis.norm());
+        let arm = || loads.crank_radius.max(place.axis.norm());
         let of_torque = of_torque.map_or_else(|| own * arm(), |scale| load.roll.abs() * scale);
         let square = place.speed_squared();
-        let sums = &mut scales[group];
-        sums.force = sums.force.max(square * own);
-        sums.torque = sums.torque.max(square * of_torque);
+        let scale = &mut scales[group];
+        scale.sums.force = scale.sums.force.max(square * own);
+        scale.sums.torque = scale.sums.torque.max(square * of_torque);
+        scale.least = scale.least.max(least);
+        scale.weight += square * load.roll.abs();
         if own > 0.0 {
             levers[group] = levers[group].max(place.lever(loads.reference).abs());
         }
     }
-    scales.iter_mut().zip(&levers).for_each(|(sums, lever)| sums.moment = sums.force * lever);
-    scales
-}
-
-/// Orders of an engine's torques that are integrated.
-#[derive(Default)]
-pub(crate) struct IntegratedOrders {
-    /// Up to where the rest is a quarter of what may be left out, or to the highest.
-    pub orders: Vec<Order>,
-    /// The groups that have such torques.
-    pub groups: Vec<IntegratedGroup>,
-    /// The sources, which keep their harmonics that were evaluated.
-    pub sources: Sources,
-}
-
-/// Integrated torques of a group.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct IntegratedGroup {
-    pub group: GroupIndex,
-    /// Bound of the sum of the orders above those.
-    pub tail: f64,
-    /// What may be left out, over what the group scales with.
-    pub allowed: f64,
-}
-
-impl IntegratedOrders {
-    /// Of an engine; what may be left out is this part of the largest torque of a load of the group, or
-    /// [`LEAST_OF_INTEGRATED`]. Orders up to `highest` are looked at before any above.
-    /// `sources` are those of the loads, at the point of a sweep where their harmonics decrease most
-    /// slowly.
-    pub fn new(
-        rtol: f64,
-        loads: &LoadList,
-        sources: &Sources,
-        mut highest: u32,
-        cancel: &Cancel,
-    ) -> Result<Self> {
-        let mut groups: Vec<IntegratedGroup> = Vec::new();
-        let mut step = 2;
-        let largest_of = sources.map_to(|source| source.largest_torque());
-        for load in loads.list.iter().filter(|load| sources[load.source].has_open_tail()) {
-            let (group, own) =
-                (loads.group_of[load.source], load.roll.abs() * largest_of[load.source]);
-            let of_group = find_or_push(
-                &mut groups,
-                |of| of.group == group,
-                || IntegratedGroup { group, tail: 0.0, allowed: 0.0 },
-            );
-            of_group.allowed = of_group.allowed.max(rtol.max(LEAST_OF_INTEGRATED) * own);
-            if load.parts.repeats == Repeats::EveryTwoTurns {
-                step = 1;
-            }
-        }
-        groups.retain(|group| group.allowed > 0.0);
-        if groups.is_empty() {
-            return Ok(Self { sources: sources.clone(), ..Self::default() });
-        }
-        let weights = loads.torque_weights();
-        loop {
-            let mut tails = vec![vec![0.0; 2 * highest as usize]; groups.len()]; // bounded: orders
-            let mut known = Sources::default();
-            for (k, (source, weight)) in sources.indices().zip(sources.iter().zip(&weights)) {
-                let own = groups.iter().position(|of| of.group == loads.group_of[k]);
-                let up_to = source.up_to(Order::whole(highest)?, cancel)?;
-                let Some((own, (with_harmonics, of_source))) = own.zip(up_to) else {
-                    known.push(Arc::clone(source));
-                    continue;
-                };
-                let of_source = of_source.into_iter().map(|tail| times(weight.size, tail));
-                tails[own].iter_mut().zip(of_source).for_each(|(sum, tail)| *sum += tail);
-                known.push(with_harmonics);
-            }
-            let is_enough = |last: &usize| {
-                groups.iter().zip(&tails).all(|(of, tails)| tails[*last] <= 0.25 * of.allowed)
-            };
-            let count = 2 * highest as usize;
-            let enough = (0..count).find(is_enough);
-            let Some(last) = enough.or((highest == HIGHEST_INTEGRATED).then_some(count - 1)) else {
-                highest = HIGHEST_INTEGRATED.min(4 * highest);
-                continue;
-            };
-            let halves = (1..=last as u32 + 1).filter(|halves| halves % step == 0);
-            let orders = halves.map(Order::from_halves).collect::<Result<_>>()?;
-            groups.iter_mut().zip(&tails).for_each(|(of, tails)| of.tail = tails[last]);
-            return Ok(Self { orders, groups, sources: known });
-        }
+    for (scale, lever) in scales.iter_mut().zip(&levers) {
+        scale.sums.moment = scale.sums.force * lever;
     }
+    scales
 }
 
 #[cfg(test)]
@@ -544,19 +467,39 @@ mod tests {
     use proptest::sample::select;
 
     use super::*;
-    use crate::engine::{Crank, Station};
+    use crate::engine::{Crank, Engine, Station};
     use crate::load::SourceIndex;
     use crate::mechanism::cylinder::Cylinder;
     use crate::numbers::angle::Angle;
     use crate::numbers::index::ListIndex;
     use crate::numbers::ratio::SpeedRatio;
 
-    #[test]
-    fn the_lowest_order_that_is_enough_is_found() {
-        for expected in [1, 2, 7, 100, limits::HIGHEST_ORDER] {
-            assert_eq!(lowest(|order| order >= expected), Some(expected));
-        }
-        assert_eq!(lowest(|_| false), None);
+    fn orders_of(
+        rtol: f64,
+        scales: &List<GroupIndex, GroupScale>,
+        loads: &Scene,
+        torque: bool,
+    ) -> Result<Vec<Order>> {
+        let series = candidates(rtol, scales, loads, &loads.sources, torque, &Cancel::new())?;
+        let mut orders: Vec<Order> = series.iter().flat_map(|one| one.orders.clone()).collect();
+        orders.sort_unstable();
+        Ok(orders)
+    }
+
+    fn rests_of(loads: &Scene, orders: &[u32]) -> List<GroupIndex, OrderSums> {
+        let evaluated = Order::all_whole(orders).unwrap();
+        let mut known = loads.sources.map_to(|_| Series::default());
+        let rests =
+            rests(loads, &loads.sources, &mut known, &evaluated, true, &Cancel::new()).unwrap();
+        sum_of_rests(loads, &rests, true)
+    }
+
+    fn rest_above(source: &dyn Source, order: u32) -> Tail {
+        series(source, UpTo::Halves(2 * order), &Cancel::new()).unwrap().rest
+    }
+
+    fn sums_of(loads: &Scene) -> OrderSums {
+        scales(loads, &loads.sources, true)[GroupIndex::default()].sums
     }
 
     #[test]
@@ -571,16 +514,16 @@ mod tests {
                 rotating_mass: 0.0,
             };
             let engine = Engine::new("", "", vec![place]).unwrap();
-            let loads = LoadList::new(&engine, 0.0);
+            let loads = Scene::anew(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
-            let scales = List::new(vec![OrderSums { force: 1e9, moment: 1e9, torque: 4.0 }]);
-            let orders = candidates(1e-6, &scales, &loads, &loads.sources, true).unwrap();
+            let sums = OrderSums { force: 1e9, moment: 1e9, torque: 4.0 };
+            let scales = List::new(vec![GroupScale { sums, ..GroupScale::default() }]);
+            let orders = orders_of(1e-6, &scales, &loads, true).unwrap();
             let highest = *orders.last().unwrap();
             for (order, enough) in [(highest.halves() / 2, true), (highest.halves() / 2 - 1, false)]
             {
-                let beyond = loads.sources[SourceIndex::new(1)].beyond(2 * order, true).torque
-                    * inertia.abs()
-                    / 4.0;
+                let rest = rest_above(&*loads.sources[SourceIndex::new(1)], order);
+                let beyond = rest.torque * inertia.abs() / 4.0;
                 assert_eq!(beyond <= NEGLIGIBLE_REST * 1e-6 / 2.0, enough, "{inertia} {order}");
             }
             highest
@@ -591,21 +534,19 @@ mod tests {
     #[test]
     fn loads_that_act_the_other_way_are_bounded_alike() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let ahead = LoadList::new(&engine, 0.0);
-        let mut opposite = LoadList::new(&engine, 0.0);
+        let ahead = Scene::anew(&engine, 0.0);
+        let mut opposite = Scene::anew(&engine, 0.0);
         opposite.list.iter_mut().for_each(|load| {
             load.weight *= -1.0;
             load.roll *= -1.0;
         });
-        let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
-        let bounds = |loads: &LoadList| {
-            let of = IntegratedOrders::new(0.1, loads, &loads.sources, 48, &Cancel::new()).unwrap();
-            (tail(loads, &evaluated, true, &loads.sources), scales(&engine, loads), of.groups)
-        };
+        let bounds =
+            |loads: &Scene| (rests_of(loads, &[1, 2, 3, 4]), scales(loads, &loads.sources, true));
         let found = bounds(&opposite);
         assert_eq!(bounds(&ahead), found);
-        assert!(found.0[GroupIndex::default()].values().iter().all(|&bound| bound > 0.0));
-        assert!(found.2[0].tail > 0.0 && found.2[0].allowed > 0.0);
+        let [inertia, gas] = [0, 1].map(|k| found.0[GroupIndex::new(k)].values());
+        assert!(inertia.iter().all(|&bound| bound > 0.0));
+        assert!(gas[2] > 0.0 && found.1[GroupIndex::new(1)].allowed(0.1)[2] > 0.0);
     }
 
     /// What is left out of a cylinder on a crank of any speed is what it would leave out on the main one by the
@@ -617,9 +558,8 @@ mod tests {
             let place = Station { cylinder, tdc, bank, z: 0.3, rotating_mass: 0.4 };
             let engine = Engine::new("", "", vec![place]).unwrap();
             let engine = engine.with_cranks(vec![Crank::MAIN, crank], vec![1]).unwrap();
-            let loads = LoadList::new(&engine, 0.1);
-            tail(&loads, &Order::all_whole(orders).unwrap(), true, &loads.sources)
-                [GroupIndex::default()]
+            let loads = Scene::anew(&engine, 0.1);
+            rests_of(&loads, orders)[GroupIndex::default()]
         };
         let parts = [(0.5, 0.0, 0.0), (0.5, 0.01, 0.0), (0.0, 0.0, 1e-3), (0.5, 0.01, -1e-3)];
         for (ratio, (mass, offset, inertia)) in
@@ -681,16 +621,17 @@ mod tests {
         let all = Order::all_whole(&(1..=100).collect::<Vec<_>>()).unwrap();
         let cancel = Cancel::new();
         for (engine, [weight, lever]) in engines.iter().zip(scales_of) {
-            let loads = LoadList::new(engine, 0.05);
+            let loads = Scene::anew(engine, 0.05);
             let one = GroupIndex::default();
-            let scales = scales(engine, &loads)[one].values();
+            let scales = sums_of(&loads).values();
             let expected = [weight, weight * lever, weight * 0.05];
             for (scale, expected) in scales.into_iter().zip(expected) {
                 assert!((scale - expected).abs() < 1e-15, "{scales:?} {expected}");
             }
-            let (every, _) = wrenches(&loads, &loads.sources, true, &all, &cancel).unwrap();
+            let sources = (&loads.sources, &KnownSeries::default());
+            let (every, _) = wrenches(&loads, sources, true, &all, &cancel).unwrap();
             for rtol in [0.3, 1e-2, 1e-4, 1e-9] {
-                let chosen = within(rtol, engine, &loads, true, &cancel).unwrap();
+                let chosen = within(rtol, &loads, true, &cancel).unwrap();
                 let kept: Vec<Order> = chosen.kept().map(|(order, _)| order).collect();
                 let mut sums = [0.0; 3];
                 let mut of_kept = Vec::new();
@@ -725,7 +666,7 @@ mod tests {
     #[test]
     fn bounds_of_groups_add_up_by_what_they_scale_with() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let loads = LoadList::new(&engine, 0.0);
+        let loads = Scene::anew(&engine, 0.0);
         assert_eq!(loads.groups.len(), 2);
         let of = |k: f64| OrderSums { force: k, moment: 2.0 * k, torque: 3.0 * k };
         let found = bounds(&[of(1.0), of(10.0)], &loads.groups, 5.0).values();
@@ -739,22 +680,22 @@ mod tests {
     #[test]
     fn orders_of_cylinders_alone_are_those_of_engines_of_one() {
         let engine = crate::load::tests::engine();
-        let (loads, cancel) = (LoadList::new(&engine, 0.03), Cancel::new());
+        let (loads, cancel) = (Scene::anew(&engine, 0.03), Cancel::new());
         for rtol in [1e-2, 1e-6] {
             let mut expected = Order::all_whole(&[1, 2]).unwrap();
             let mut sums = [0.0; 3];
             for station in engine.stations() {
                 let alone = Station { rotating_mass: 0.0, ..*station };
                 let alone = Engine::new("", "", vec![alone]).unwrap();
-                let loads = LoadList::new(&alone, 0.03);
-                let chosen = within(rtol, &alone, &loads, true, &cancel).unwrap();
+                let loads = Scene::anew(&alone, 0.03);
+                let chosen = within(rtol, &loads, true, &cancel).unwrap();
                 expected.extend(chosen.kept().map(|(order, _)| order));
                 let bound = chosen.error_bound(&loads, &[7.0]).values();
                 sums.iter_mut().zip(bound).for_each(|(sum, bound)| *sum += bound);
             }
             expected.sort_unstable();
             expected.dedup();
-            let (orders, bound) = within_each(rtol, &engine, &loads, (true, 7.0), &cancel).unwrap();
+            let (orders, bound) = within_each(rtol, &loads, (true, 7.0), &cancel).unwrap();
             assert_eq!(orders, expected);
             for (bound, sum) in bound.values().into_iter().zip(sums) {
                 assert!(sum > 0.0 && (bound - sum).abs() <= 1e-13 * sum, "{bound} {sum}");
@@ -768,8 +709,8 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place]).unwrap();
-        let loads = LoadList::new(&engine, 0.0);
-        let error = within(1e-9, &engine, &loads, true, &Cancel::new()).err().unwrap();
+        let loads = Scene::anew(&engine, 0.0);
+        let error = within(1e-9, &loads, true, &Cancel::new()).err().unwrap();
         let ratio = format!("at a rod ratio of {:?};", cylinder.mechanism().rod_ratio());
         assert!(error.to_string().contains(&ratio), "{error}");
     }
@@ -781,14 +722,13 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place; 2]).unwrap();
-        let loads = LoadList::new(&engine, 0.0);
-        let rest =
-            loads.sources[SourceIndex::new(0)].beyond(2 * limits::HIGHEST_ORDER, false).force;
+        let loads = Scene::anew(&engine, 0.0);
+        let rest = rest_above(&*loads.sources[SourceIndex::new(0)], limits::HIGHEST_ORDER).force;
         assert!(rest > 0.0 && rest.is_finite());
-        let scales = scales(&engine, &loads);
+        let scales = scales(&loads, &loads.sources, false);
         // Of two cylinders each leaves half of that.
         for (part, is_enough) in [(0.1, true), (0.12, true), (0.13, false), (0.3, false)] {
-            let found = candidates(rest / part, &scales, &loads, &loads.sources, false);
+            let found = orders_of(rest / part, &scales, &loads, false);
             assert_eq!(found.is_ok(), is_enough, "{part}");
             let highest = found.ok().and_then(|orders| orders.last().copied());
             assert!(!is_enough || highest.and_then(Order::as_whole) == Some(limits::HIGHEST_ORDER));
@@ -802,8 +742,7 @@ mod tests {
         let (tdc, bank) = (Angle::ZERO, Angle::ZERO);
         let place = Station { cylinder, tdc, bank, z: 0.2, rotating_mass: 0.0 };
         let rod = Engine::new("", "", vec![place]).unwrap();
-        let scales_of =
-            |engine: &Engine| scales(engine, &LoadList::new(engine, 0.05))[GroupIndex::default()];
+        let scales_of = |engine: &Engine| sums_of(&Scene::anew(engine, 0.05));
         // About J·r/l.
         let torque = scales_of(&rod).torque;
         assert!((torque / (0.01 / 3.0) - 1.0).abs() < 0.1, "{torque}");
@@ -827,13 +766,10 @@ mod tests {
     #[test]
     fn bounds_of_loads_add_up() {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
-        let once = LoadList::new(&engine, 0.0);
-        let mut twice = LoadList::new(&engine, 0.0);
+        let once = Scene::anew(&engine, 0.0);
+        let mut twice = Scene::anew(&engine, 0.0);
         twice.list = once.list.iter().chain(&once.list).copied().collect();
-        let evaluated = Order::all_whole(&[1, 2, 3, 4]).unwrap();
-        let rest = |loads: &LoadList| {
-            tail(loads, &evaluated, true, &loads.sources)[GroupIndex::default()].values()
-        };
+        let rest = |loads: &Scene| rests_of(loads, &[1, 2, 3, 4])[GroupIndex::default()].values();
         for (one, both) in rest(&once).into_iter().zip(rest(&twice)) {
             assert!((both - 2.0 * one).abs() <= 1e-14 * one, "{both} {one}");
         }

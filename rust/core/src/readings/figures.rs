@@ -11,12 +11,12 @@ use super::quantity::Part;
 use super::terms::{LoadSums, terms};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadList};
+use crate::load::{Load, Scene};
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
-use crate::source::Scaling;
+use crate::source::{Scaling, resolved};
 
 /// Highest order of the pistons whose phasors are listed.
 pub const HIGHEST_LISTED: u32 = 24;
@@ -188,9 +188,11 @@ fn load_orders(engine: &Engine) -> Result<Vec<Order>> {
     if engine.loads().is_empty() {
         return Ok(Vec::new());
     }
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
-    let orders = |(_, load)| loads.source(load).orders(Order::HIGHEST);
-    let own: BTreeSet<Order> = loads.further().flat_map(orders).collect();
+    let loads = Scene::of(engine, None)?;
+    let mut own = BTreeSet::new();
+    for (_, load) in loads.further() {
+        own.extend(resolved(loads.source(load), &Cancel::new())?);
+    }
     Ok(own.into_iter().collect())
 }
 

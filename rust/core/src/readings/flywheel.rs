@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use crate::engine::Engine;
 use crate::load::kinematics::Kinematics;
-use crate::load::{Load, LoadList};
+use crate::load::{Load, Scene};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -507,11 +507,11 @@ fn mean_of(values: &[f64]) -> f64 {
 /// Mean moment of inertia over a turn of each cylinder's piston and rod as seen from the main crank, kg·m².
 pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
     let grid = CycleGrid::new(360.0, &[], cancel)?;
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     let of_cylinder = |i: usize| {
         let own = |load: &&Load| load.place.origin.cylinder() == Some(i);
         let list = loads.list.iter().filter(own).copied().collect();
-        let own = LoadList { list, ..(*loads).clone() };
+        let own = Scene { list, ..(*loads).clone() };
         let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;
         Ok(grid.mean(&inertia))
     };
@@ -523,12 +523,12 @@ fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result
     let Some(engine) = engine else {
         return Ok([memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?]);
     };
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     moving_of(&loads, edges_deg, cancel)
 }
 
 /// The same of these loads.
-fn moving_of(loads: &LoadList, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
+fn moving_of(loads: &Scene, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
     let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
     let kinematics = Kinematics::new(loads);
     for part in parts(0..edges_deg.len(), BLOCK) {

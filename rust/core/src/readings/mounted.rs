@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Group, GroupIndex, LoadList, count};
+use crate::load::{Group, GroupIndex, Scene, count};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
@@ -108,9 +108,9 @@ impl EngineLoads {
             omega.push(angular_speed(rpm)?);
         }
         engine.check_speeds(rpm)?;
-        let loads = LoadList::of(engine, cg.z)?;
+        let loads = Scene::of(engine, Some(cg.z))?;
         let torque = engine.spectrum().is_none();
-        let chosen = choice::evaluated(engine, &loads, orders, torque, cancel)?;
+        let chosen = choice::evaluated(&loads, orders, torque, cancel)?;
         let counts = [false, true].map(|torque| count(&loads.list, torque));
         let (mut kept, mut unit, mut roundings) = (Vec::new(), Vec::new(), Vec::new());
         for (order, wrenches) in chosen.kept() {

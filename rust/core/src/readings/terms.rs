@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::amplitude::SourceAmplitudes;
 use super::balance::{Balance, Request, angular_speed};
 use crate::engine::{Engine, Origin};
-use crate::load::{Load, LoadList};
+use crate::load::{Load, Scene};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
@@ -80,7 +80,7 @@ pub(super) fn sums_by(
 
 /// Sums of some of an engine's loads at some orders.
 pub(super) struct LoadSums<'a> {
-    pub loads: Arc<LoadList>,
+    pub loads: Arc<Scene>,
     amplitudes: SourceAmplitudes,
     orders: &'a [Order],
     torque: bool,
@@ -96,7 +96,7 @@ impl<'a> LoadSums<'a> {
         cancel: &Cancel,
     ) -> Result<Self> {
         let torque = torque && engine.spectrum().is_none();
-        let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+        let loads = Scene::of(engine, reference_z)?;
         let amplitudes = SourceAmplitudes::new(&loads.sources, torque, orders, cancel)?;
         Ok(Self { loads, amplitudes, orders, torque })
     }

@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};
-use crate::load::LoadList;
+use crate::load::{KnownSeries, Scene};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
@@ -52,9 +52,10 @@ pub(crate) fn over_square(
         return Err(Error::figure("rpm", rpm, hint));
     }
     engine.check_speeds(rpm.as_slice())?;
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     let torque = torque && engine.spectrum().is_none();
-    let (by_group, _) = wrenches(&loads, &loads.sources, torque, &[order], cancel)?;
+    let (by_group, _) =
+        wrenches(&loads, (&loads.sources, &KnownSeries::default()), torque, &[order], cancel)?;
     let mut sum = Wrench::default();
     for (group, wrench) in loads.groups.iter().zip(&by_group) {
         let factor = match (group.scaling, omega) {

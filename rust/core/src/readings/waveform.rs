@@ -7,7 +7,7 @@ use ndarray::{Array1, Array2};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::kinematics::Kinematics;
-use crate::load::{LoadList, find_or_push};
+use crate::load::{Scene, find_or_push};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
@@ -80,8 +80,7 @@ pub fn exact(
     }
     let omega = angular_speed(request.rpm)?;
     engine.check_speeds(&[request.rpm])?;
-    let reference = engine.reference(request.reference_z)?;
-    let loads = LoadList::of(engine, reference)?;
+    let loads = Scene::of(engine, request.reference_z)?;
     let kinematics = Kinematics::new(&loads);
     let factors = kinematics.factors(omega);
     let mut shape = Shape::new(&loads, request.torque);
@@ -112,7 +111,7 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
-    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
+    let loads = Scene::of(engine, request.reference_z)?;
     // Phasors that cancel are zero already.
     let shape = Shape::new(&loads, balance.has_torque);
     let parts = shape.parts.iter().map(|(name, _)| balance.of_part(Part::Of(name)));
@@ -142,7 +141,7 @@ struct Shape {
 
 impl Shape {
     /// Of loads, with torques if they are wanted.
-    fn new(loads: &LoadList, torque: bool) -> Self {
+    fn new(loads: &Scene, torque: bool) -> Self {
         let mut parts: Vec<(Arc<str>, [bool; 2])> = Vec::new();
         for (k, group) in
             loads.groups.indices().zip(&loads.groups).filter(|(_, group)| *group.name != *INERTIA)

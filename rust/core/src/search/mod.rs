@@ -278,7 +278,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 mod tests {
     use super::images::Image;
     use super::*;
-    use crate::load::{LoadList, Wanted};
+    use crate::load::{Scene, Wanted};
     use crate::numbers::order::Order;
     use crate::readings::balance::{Request, Vector, balance};
 
@@ -324,7 +324,7 @@ mod tests {
             let size = |k: usize| {
                 let banks = [phases(k), phases((7 * k + 3) % entries.len())];
                 let engine = vee(hold, 70.0, &banks, cylinder, 0.1).unwrap();
-                let loads = LoadList::new(&engine, engine.middle());
+                let loads = Scene::anew(&engine, engine.middle());
                 let terms = loads.sums(&loads.list, Order::FIRST, wanted);
                 let right = terms.iter().find(|term| term.bank == Some(engine.bank_of(0))).unwrap();
                 // Half of m·r·Z times the spacing turns either way.

@@ -7,8 +7,8 @@
 //!
 //! ```
 //! use crankpin_core::engine::{ActsOn, PeriodicLoad};
-//! use crankpin_core::source::{Parts, Repeats, Scaling, Source, Tail, TorqueAmplitudes};
-//! use crankpin_core::{Cancel, Complex64, Order, Result, check_source};
+//! use crankpin_core::source::{Parts, Repeats, Scaling, Series, Source, TorqueAmplitudes, UpTo};
+//! use crankpin_core::{Cancel, Order, Result, check_source};
 //!
 //! /// Springs that a camshaft compresses once in two turns: 10 N·m on it.
 //! #[derive(Debug)]
@@ -23,18 +23,10 @@
 //!         Parts { force: None, roll: true, scaling: Scaling::Independent, repeats: Repeats::EveryTwoTurns }
 //!     }
 //!
-//!     fn orders(&self, highest: Order) -> Vec<Order> {
-//!         Order::from_halves(1).into_iter().filter(|own| *own <= highest).collect()
-//!     }
-//!
-//!     fn torque(&self, orders: &[Order], _: &Cancel) -> Result<TorqueAmplitudes> {
-//!         let own = |order: &Order| if order.halves() == 1 { 10.0.into() } else { Complex64::ZERO };
-//!         let on_camshaft: Vec<Complex64> = orders.iter().map(own).collect();
-//!         Ok(TorqueAmplitudes::shared(&on_camshaft, 0.0, ActsOn::Both.torque_shares(0.5)))
-//!     }
-//!
-//!     fn beyond(&self, halves: u32, _: bool) -> Tail {
-//!         Tail { force: 0.0, torque: if halves < 1 { 5.0 } else { 0.0 } }
+//!     fn series(&self, _: UpTo, _: &Cancel) -> Result<Series> {
+//!         let on_both = ActsOn::Both.torque_shares(0.5);
+//!         let torque = TorqueAmplitudes::shared(&[10.0.into()], 0.0, on_both);
+//!         Ok(Series { orders: vec![Order::from_halves(1)?], torque, ..Series::default() })
 //!     }
 //! }
 //!
@@ -47,6 +39,7 @@
 //! [`PeriodicLoad::of`]: crate::engine::PeriodicLoad::of
 
 pub(crate) mod over_angle;
+mod series;
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -54,6 +47,7 @@ use std::ptr;
 use std::sync::Arc;
 
 use self::over_angle::{AngleBlock, Columns, LoadSum, Quantities};
+pub use self::series::{Series, Tail, TorqueAmplitudes, UpTo};
 use crate::Complex64;
 use crate::mechanism::DrivenMechanism;
 use crate::mechanism::exact::TorqueKey;
@@ -62,7 +56,6 @@ use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
-use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::pressure::Cycle;
 
@@ -156,43 +149,16 @@ pub enum Column {
     Roll,
 }
 
-/// Amplitudes of the torque of a source at some orders, and its mean.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct TorqueAmplitudes {
-    /// By order.
-    pub harmonics: TorqueHarmonics,
-    /// On the block and on the main crank.
-    pub mean: [f64; 2],
-}
-
-impl TorqueAmplitudes {
-    /// Of a torque of which block and main crank get these shares: those of [`ActsOn::torque_shares`] where it
-    /// acts on a shaft.
-    ///
-    /// [`ActsOn::torque_shares`]: crate::engine::ActsOn::torque_shares
-    #[must_use]
-    pub fn shared(amplitudes: &[Complex64], mean: f64, shares: [f64; 2]) -> Self {
-        let [roll, crank] = shares.map(|share| amplitudes.iter().map(|a| a * share).collect());
-        Self { harmonics: TorqueHarmonics { roll, crank }, mean: shares.map(|share| share * mean) }
-    }
-}
-
-/// Bounds of what orders above one add.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Tail {
-    /// To the force.
-    pub force: f64,
-    /// To either torque.
-    pub torque: f64,
-}
-
 /// What a tolerance is relative to, over the weights of a load.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scale {
     /// Of the force.
     pub force: f64,
     /// None where it is that of the force at a crank radius, or at the distance of its axis.
     pub torque: Option<f64>,
+    /// Smallest part of that of the torque which counts as a tolerance: larger than 0 where orders decline so
+    /// slowly that those which are left out are better bounded than summed.
+    pub least: f64,
 }
 
 /// Factor of a source in exact sums.
@@ -219,15 +185,12 @@ pub struct Point<'a> {
     pub cycles: Option<&'a [Arc<Cycle>]>,
 }
 
-/// A source that keeps its amplitudes at orders ½, 1, 1½ … up to one, and bounds of what those above each
-/// add to its torques.
-pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
-
 /// What acts at a place, over the weights of a load.
 ///
 /// A source says what every reading asks of it; none asks which source it is. It has a name, says how it acts,
-/// and has orders, their amplitudes and a bound of the rest; what else there is follows from these. A minimal
-/// source has [`name`], [`parts`], [`orders`], [`beyond`], and [`force`] or [`torque`].
+/// and has a series of orders, with their amplitudes and a bound of the rest; what else there is follows from
+/// these. A minimal source has [`name`], [`parts`] and [`series`]. One that evaluates amplitudes faster at the
+/// orders that are wanted has [`force`] and [`torque`] as well, and may leave them out of its series.
 ///
 /// Orders are multiples of the speed of the main crank, whatever the shaft; amplitudes are peak phasors, those
 /// of order n at a crank angle θ `Re(A·e^{in(θ − φ)})`, with φ the phase of the place, and do not change with
@@ -235,8 +198,7 @@ pub type SourceUpTo = (Arc<dyn Source>, Vec<f64>);
 ///
 /// [`name`]: Self::name
 /// [`parts`]: Self::parts
-/// [`orders`]: Self::orders
-/// [`beyond`]: Self::beyond
+/// [`series`]: Self::series
 /// [`force`]: Self::force
 /// [`torque`]: Self::torque
 pub trait Source: Debug + Send + Sync + Any {
@@ -258,10 +220,12 @@ pub trait Source: Debug + Send + Sync + Any {
         None
     }
 
+    /// Its orders as far as they are wanted, and a bound of the rest: in closed form, or of what is integrated.
+    fn series(&self, up_to: UpTo, cancel: &Cancel) -> Result<Series>;
+
     /// Amplitudes of the force; zero at orders that it does not have.
     fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
-        cancel.check()?;
-        Ok(vec![Complex64::default(); orders.len()]) // bounded: by the orders of a request
+        Ok(series_to_highest(self, orders, cancel)?.force_at(orders))
     }
 
     /// Whether its torque at these orders is to be integrated: that takes as long as waking another
@@ -274,47 +238,29 @@ pub trait Source: Debug + Send + Sync + Any {
     /// Amplitudes of its torque on the block and on the main crank, and their means; without those that its
     /// force makes about the main crank.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        cancel.check()?;
-        let zero = vec![Complex64::default(); orders.len()]; // bounded: by the orders of a request
-        let harmonics = TorqueHarmonics { roll: zero.clone(), crank: zero };
-        Ok(TorqueAmplitudes { harmonics, mean: [0.0; 2] })
-    }
-
-    /// Orders that it has up to one, ascending.
-    fn orders(&self, highest: Order) -> Vec<Order>;
-
-    /// Bounds of what orders above a number of halves add at any crank angle, mostly the sum of the sizes of their
-    /// amplitudes; infinite where none is known. That of a torque, the larger of both, is wanted or not.
-    fn beyond(&self, halves: u32, torque: bool) -> Tail;
-
-    /// Whether bounds of what orders above one add are known only as its torque is integrated: then
-    /// [`Source::up_to`] has them, and [`Source::beyond`] none.
-    fn has_open_tail(&self) -> bool {
-        false
-    }
-
-    /// The same source with its amplitudes up to an order, of one with an open tail.
-    fn up_to(&self, highest: Order, cancel: &Cancel) -> Result<Option<SourceUpTo>> {
-        let _ = (highest, cancel);
-        Ok(None)
-    }
-
-    /// Largest torque among those at whole degrees, of one with an open tail.
-    fn largest_torque(&self) -> f64 {
-        0.0
+        Ok(series_to_highest(self, orders, cancel)?.torque_at(orders))
     }
 
     /// What a tolerance is relative to: by default all of its orders together.
     fn scale(&self) -> Scale {
-        let Tail { force, torque } = self.beyond(0, true);
-        Scale { force, torque: (torque > 0.0).then_some(torque) }
+        // An error is that of its amplitudes as well.
+        let all = series(self, UpTo::Halves(0), &Cancel::new()).unwrap_or_default();
+        let Tail { force, torque } = all.rest;
+        Scale { force, torque: (torque > 0.0).then_some(torque), least: 0.0 }
     }
 
-    /// Whether every order of its mechanism grows with the rod ratio up to its own.
+    /// Bounds of the sizes of its amplitudes at some orders, for the torque on the block and on the crank, which
+    /// hold at any rod ratio and pin offset up to its own, as its bounds of the rest do; none where it is to be
+    /// evaluated at each.
     #[doc(hidden)]
-    fn grows_with_rod_ratio(&self, column: Column) -> bool {
-        let _ = column;
-        false
+    fn sizes_up_to_own(
+        &self,
+        column: Column,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[Vec<f64>; 2]>> {
+        let _ = (column, orders, cancel);
+        Ok(None)
     }
 
     /// The source at a point of a sweep, where it is another there.
@@ -341,7 +287,7 @@ pub trait Source: Debug + Send + Sync + Any {
         columns: &mut Columns,
     ) -> Result<()> {
         let cancel = Cancel::new();
-        let orders = self.orders(resolved(self)?);
+        let orders = resolved(self, &cancel)?;
         let Columns { force: [force_x, force_y], moment: [moment_x, moment_y], torque } = columns;
         let [force, moment, arm] = [sum.force, sum.moment, sum.arm].map(|sum| sum * factor);
         let [on_block, on_crank] = torque;
@@ -394,21 +340,51 @@ pub trait Source: Debug + Send + Sync + Any {
     }
 }
 
-/// An order above which all of a source together are rounding.
-pub(crate) fn resolved<S: Source + ?Sized>(source: &S) -> Result<Order> {
+/// The orders of a source as far as they are wanted.
+pub(crate) fn series<S: Source + ?Sized>(
+    source: &S,
+    up_to: UpTo,
+    cancel: &Cancel,
+) -> Result<Series> {
+    cancel.check()?;
+    Ok(source.series(up_to, cancel)?.cut(up_to))
+}
+
+fn series_to_highest<S: Source + ?Sized>(
+    source: &S,
+    orders: &[Order],
+    cancel: &Cancel,
+) -> Result<Series> {
+    cancel.check()?;
+    let highest = orders.iter().max().map_or(0, |order| order.halves());
+    source.series(UpTo::Halves(highest), cancel)
+}
+
+/// Amplitudes of a source, for the torque on the block and on the crank; those of forces twice.
+pub(crate) fn amplitudes(
+    source: &(impl Source + ?Sized),
+    column: Column,
+    orders: &[Order],
+    cancel: &Cancel,
+) -> Result<TorqueHarmonics> {
+    match column {
+        Column::Force => {
+            let force = source.force(orders, cancel)?;
+            Ok(TorqueHarmonics { roll: force.clone(), crank: force })
+        }
+        Column::Roll => Ok(source.torque(orders, cancel)?.harmonics),
+    }
+}
+
+/// Orders of a source, without those that together are rounding.
+pub(crate) fn resolved<S: Source + ?Sized>(source: &S, cancel: &Cancel) -> Result<Vec<Order>> {
     /// Part of all orders that is rounding.
     const ROUNDING: f64 = 1e-17;
-    let all = source.beyond(0, true);
-    let mut highest = 1;
-    loop {
-        let rest = source.beyond(2 * highest, true);
-        let is_below = |rest: f64, all: f64| rest.is_finite() && rest <= ROUNDING * all;
-        let is_rounding = is_below(rest.force, all.force) && is_below(rest.torque, all.torque);
-        if is_rounding || highest == limits::HIGHEST_ORDER {
-            return Order::whole(highest);
-        }
-        highest = limits::HIGHEST_ORDER.min(2 * highest);
-    }
+    let all = series(source, UpTo::Halves(0), cancel)?.rest;
+    let is_below = |rest: f64, all: f64| rest.is_finite() && rest <= ROUNDING * all;
+    let is_rounding =
+        |rest: Tail| is_below(rest.force, all.force) && is_below(rest.torque, all.torque);
+    Ok(series(source, UpTo::Enough(&is_rounding), cancel)?.orders)
 }
 
 /// A source at a point of a sweep.

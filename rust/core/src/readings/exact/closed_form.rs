@@ -11,7 +11,7 @@ use super::roots::{FormalSum, Share};
 use super::{ExactLoads, Levers, too_long, whole};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadIndex, LoadList, Wanted, superpose};
+use crate::load::{Load, LoadIndex, Scene, Wanted, superpose};
 use crate::mechanism::exact::ExactHarmonic;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -97,7 +97,7 @@ fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
 /// Levers in units of the spacing, and the spacing.
 fn levers(
     engine: &Engine,
-    loads: &LoadList,
+    loads: &Scene,
     reference: Option<f64>,
     cancel: &Cancel,
 ) -> Result<(Vec<Ratio>, f64)> {
@@ -195,7 +195,7 @@ fn one_harmonic(
     order: Order,
     reference_z: Option<f64>,
     cancel: &Cancel,
-) -> Result<(LoadList, (usize, Vec<Ratio>), ExactHarmonic)> {
+) -> Result<(Scene, (usize, Vec<Ratio>), ExactHarmonic)> {
     let ExactLoads { mut loads, motions, .. } = ExactLoads::new(engine, reference_z)?;
     if motions.iter().any(|motion| motion.speed != SpeedRatio::ONE.halves_of_speed()) {
         let hint = "cylinders on cranks as fast as the main one";
@@ -249,7 +249,7 @@ fn given_loads(
     reference_z: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Vec<usize>> {
-    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+    let loads = Scene::of(engine, reference_z)?;
     let mut found = Vec::new();
     for (index, load) in loads.further() {
         let has_lever = !moment || load.place.z != loads.reference;
@@ -266,7 +266,7 @@ fn given_loads(
 /// Twice the forward and twice the conjugate of the backward part, over a denominator; `products` are
 /// weights times levers.
 fn sums(
-    loads: &LoadList,
+    loads: &Scene,
     order: Order,
     products: &[Ratio],
     moment: bool,

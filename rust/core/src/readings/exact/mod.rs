@@ -14,7 +14,7 @@ use num_traits::{CheckedAdd, CheckedMul};
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Load, LoadIndex, LoadList, SourceIndex};
+use crate::load::{Load, LoadIndex, Scene, SourceIndex};
 use crate::mechanism::Mechanism;
 use crate::mechanism::exact::MotionKey;
 use crate::numbers::cancel::Cancel;
@@ -64,7 +64,7 @@ list_index! {
 
 /// Loads of which exact sums are made, and their motions.
 struct ExactLoads {
-    loads: LoadList,
+    loads: Scene,
     /// Motions that differ as typed, or in the speed of their cranks, whichever the sense: offsets are on
     /// the side to which the crankpin swings.
     motions: List<MotionIndex, ExactMotion>,
@@ -78,7 +78,7 @@ impl ExactLoads {
             let reason = "its forces are a spectrum that was given".to_owned();
             return Err(Error::Undefined { argument: "an exact sum", reason });
         }
-        let mut loads = LoadList::clone(&*LoadList::of(engine, engine.reference(reference)?)?);
+        let mut loads = Scene::clone(&*Scene::of(engine, reference)?);
         loads.retain_exact();
         let acts = |source: &SourceIndex| loads.list.iter().any(|load| load.source == *source);
         let mechanism = |source| Some((source, loads.sources[source].mechanism()?));
@@ -109,7 +109,7 @@ impl Levers {
     /// Levers about a reference plane, by default midway between the first and the last cylinder.
     fn new(
         engine: &Engine,
-        loads: &LoadList,
+        loads: &Scene,
         reference: Option<f64>,
         cancel: &Cancel,
     ) -> Result<Self> {
@@ -164,7 +164,7 @@ impl NumberedLoads {
         if engine.loads().is_empty() {
             return Ok(Self(acts));
         }
-        let loads = LoadList::of(engine, engine.reference(reference)?)?;
+        let loads = Scene::of(engine, reference)?;
         let is_numbered = |load: &&Load| loads.source(load).exact() == ExactFactor::Unknown;
         let amplitudes = SourceAmplitudes::new(&loads.sources, true, orders, cancel)?;
         for load in loads.list.iter().filter(is_numbered) {

@@ -1,6 +1,6 @@
 //! Loads in exact numbers: roots of unity, times symbols for angles that are no simple parts of a turn.
 
-use crate::load::{Arithmetic, Factor, Load, LoadIndex, LoadList, Weight};
+use crate::load::{Arithmetic, Factor, Load, LoadIndex, Scene, Weight};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::decimal::WITHIN_ULP;
@@ -101,7 +101,7 @@ pub(super) struct FormalSum {
 }
 
 impl FormalSum {
-    pub fn new(loads: &LoadList, cancel: &Cancel) -> Result<Self> {
+    pub fn new(loads: &Scene, cancel: &Cancel) -> Result<Self> {
         let directions = loads.list.iter().map(|load| load.place.direction);
         let phases = loads.list.iter().map(|load| load.place.phase);
         Ok(Self {

@@ -44,7 +44,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::layout::Strokes;
-use crate::load::{Load, LoadIndex, LoadList};
+use crate::load::{Load, LoadIndex, Scene};
 use crate::mechanism::exact::TorqueKey;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -54,7 +54,7 @@ use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 use crate::readings::quantity::Part;
-use crate::source::ForcePart;
+use crate::source::{ExactFactor, ForcePart, Source};
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
@@ -547,11 +547,12 @@ fn evaluated(
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
-    let loads = LoadList::of(engine, engine.reference(reference_z)?)?;
+    let loads = Scene::of(engine, reference_z)?;
     let weights = loads.torque_weights();
     let of_sources = weights.iter().zip(&loads.sources);
-    let largest: f64 =
-        of_sources.map(|(weight, source)| weight.size * source.largest_torque()).sum();
+    let of_cycles = of_sources.filter(|(_, source)| source.exact() == ExactFactor::Cycle);
+    let torque = |source: &dyn Source| source.scale().torque.unwrap_or(0.0);
+    let largest: f64 = of_cycles.map(|(weight, source)| weight.size * torque(&**source)).sum();
     let zero = |k: usize| {
         let of = |vector: Vector| {
             let [x, y] = found.xy(vector, k);

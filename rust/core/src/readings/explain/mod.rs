@@ -15,7 +15,7 @@ pub use self::sentences::Wording;
 use self::sums::Sums;
 use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::firing::Firing;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::figure::rounded;
@@ -141,7 +141,7 @@ pub fn explain(
 
 /// First-order force over ω² of the strongest piston, or of a throw: the order of its own crank.
 fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
-    let loads = LoadList::of(engine, engine.reference(None)?)?;
+    let loads = Scene::of(engine, None)?;
     let mut pistons: f64 = 0.0;
     let mut throws: f64 = 0.0;
     for load in &loads.list {

@@ -23,22 +23,25 @@
 //!
 //! Where no axis but speed and load is swept, orders are those of a balance, chosen by its wrenches.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::harmonics::of;
 use super::layout::{BanksTurned, Layout, LayoutSum};
 use super::{Selection, Sweep, SweepAxes};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{GroupIndex, Harmonic, Sources};
+use crate::load::{GroupIndex, Harmonic, KnownSeries, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
-use crate::readings::choice::{Candidate, Choice, IntegratedOrders, OrderSums, bounds, times};
+use crate::readings::choice::{
+    Candidate, Choice, OrderSums, bounds, rest, rests, sum_of_rests, times,
+};
 use crate::readings::quantity::{Kind, Part, Quantity};
-use crate::source::{Column, Point, Source, at_point};
+use crate::source::{Column, Point, Series, Source, amplitudes, at_point};
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -57,20 +60,21 @@ impl Sweep {
         let [rod_ratio, pin_offset] = sweep.extremes;
         // Between the cycles of a map no sum is larger than the largest of theirs.
         let (mut candidates, nodes) = (Vec::new(), sweep.nodes.count());
-        for (engine, loads) in sweep.engines.iter().zip(&loads) {
+        for loads in &loads {
             for node in 0..nodes {
                 let cycles = sweep.cycles_at(node);
-                let sources = loads.at_point(&Point { rod_ratio, pin_offset, cycles })?;
-                candidates.push(Candidate { engine, loads, sources, repeats: node > 0 });
+                let own = match cycles {
+                    Some(_) => Cow::Owned(loads.at_point(&Point { cycles, ..Point::default() })?),
+                    None => Cow::Borrowed(&loads.sources),
+                };
+                let slowest = loads.at_point(&Point { rod_ratio, pin_offset, cycles })?;
+                candidates.push(Candidate { loads, own, sources: Cow::Owned(slowest) });
             }
         }
         let mut choice = Choice::new(rtol, &candidates, sweep.torque, cancel)?;
-        for ((rest, candidate), integrated) in
-            choice.rest.iter_mut().zip(&candidates).zip(&choice.integrated)
-        {
-            for (group, tail) in sweep.integrated_tails(candidate, integrated, cancel)? {
-                rest[group].torque = tail;
-            }
+        let Choice { orders, series, rest, .. } = &mut choice;
+        for ((candidate, series), rest) in candidates.iter().zip(series).zip(rest) {
+            sweep.add_rests(candidate, series, orders, rest, cancel)?;
         }
         sweep.orders.clone_from(&choice.orders);
         // By order, engine and group.
@@ -78,11 +82,11 @@ impl Sweep {
         let mut known = Known::new();
         let is_one_point = sweep.axes.bank_angle.is_none() && sweep.points() == 1;
         let mut layouts = Vec::new();
-        for (candidate, integrated) in candidates.iter().zip(&choice.integrated) {
+        for (k, (candidate, series)) in candidates.iter().zip(&choice.series).enumerate() {
             cancel.check()?;
-            let Candidate { engine, loads, sources: slowest, repeats } = candidate;
+            let Candidate { loads, sources: slowest, .. } = candidate;
             if is_one_point {
-                let sources = &integrated.sources;
+                let sources = (&**slowest, series);
                 let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
                 for (sizes, of_order) in sizes.iter_mut().zip(all.chunks(loads.groups.len())) {
                     sizes.extend(of_order.iter().map(OrderSums::of));
@@ -102,9 +106,10 @@ impl Sweep {
                     selected.push((k, Selection { quantity, scaling: Some(group.scaling) }));
                 }
             }
-            if !repeats {
+            // Another cycle changes amplitudes alone.
+            if k % nodes == 0 {
                 let selections: Vec<Selection> = selected.iter().map(|(_, one)| *one).collect();
-                layouts = sweep.layouts(engine, loads, &selections)?;
+                layouts = sweep.layouts(&sweep.engines[k / nodes], loads, &selections)?;
             }
             let mut of_engine = vec![loads.groups.map_to(|_| OrderSums::default()); sizes.len()]; // bounded: orders
             for ((group, selection), layout) in selected.into_iter().zip(&layouts) {
@@ -137,41 +142,41 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Bounds, at any point, of the torques of each group above the last of their integrated orders.
-    fn integrated_tails(
+    /// Raises bounds of what orders above those evaluated add to what they are at any point, of sources that are
+    /// evaluated at each.
+    fn add_rests(
         &self,
-        candidate: &Candidate,
-        integrated: &IntegratedOrders,
+        Candidate { loads, sources, .. }: &Candidate,
+        known: &mut KnownSeries,
+        orders: &[Order],
+        most: &mut List<GroupIndex, OrderSums>,
         cancel: &Cancel,
-    ) -> Result<Vec<(GroupIndex, f64)>> {
-        let mut worst: Vec<(GroupIndex, f64)> =
-            integrated.groups.iter().map(|of| (of.group, of.tail)).collect();
-        let Some(&last) = integrated.orders.last().filter(|_| self.points() > 1) else {
-            return Ok(worst);
+    ) -> Result<()> {
+        let varies = |source: &Arc<dyn Source>| -> Result<bool> {
+            let is_bounded = || source.sizes_up_to_own(Column::Roll, &[], cancel);
+            let has_points = source.at_point(&self.proportions_at(0))?.is_some();
+            Ok(has_points && is_bounded()?.is_none())
         };
-        for (_, tail) in &mut worst {
-            *tail = 0.0;
+        if self.points() == 1 {
+            return Ok(());
         }
-        let loads = candidate.loads;
-        let weights = loads.torque_weights();
+        let varying: Vec<bool> = sources.iter().map(varies).collect::<Result<_>>()?;
+        if !varying.contains(&true) {
+            return Ok(());
+        }
+        let mut rests = rests(loads, sources, known, orders, self.torque, cancel)?;
+        *most = loads.groups.map_to(|_| OrderSums::default());
         for point in 0..self.points() {
             cancel.check()?;
-            let at = self.proportions_at(point);
-            let mut tails = loads.groups.map_to(|_| 0.0);
-            let sources = candidate.sources.indices().zip(candidate.sources.iter().zip(&weights));
-            for (k, (source, weight)) in sources {
-                if !source.has_open_tail() {
-                    continue;
-                }
-                let up_to = at_point(source, &at)?.up_to(last, cancel)?;
-                let above = up_to.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
-                tails[loads.group_of[k]] += weight.size * above;
+            let all = sources.iter().zip(rests.iter_mut()).zip(&varying);
+            for ((source, own), _) in all.filter(|(_, varies)| **varies) {
+                let there = at_point(source, &self.proportions_at(point))?;
+                *own = rest(&*there, &mut Series::default(), orders, cancel)?;
             }
-            for (group, tail) in &mut worst {
-                *tail = tail.max(tails[*group]);
-            }
+            let sums = sum_of_rests(loads, &rests, self.torque);
+            most.iter_mut().zip(&sums).for_each(|(most, sum)| *most = most.max(*sum));
         }
-        Ok(worst)
+        Ok(())
     }
 
     /// Bounds, of inertia over ω², of the size of each order, |forward| + |backward| or |torque|, at any point;
@@ -244,41 +249,25 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<[Vec<SizeFactor>; 2]> {
         let orders = &self.orders;
-        let values = |factor: fn(Complex64) -> SizeFactor| {
-            let TorqueHarmonics { roll, crank } = of(&**source, column, orders, cancel)?;
-            Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
-        };
-        let Some(mechanism) = source.mechanism().filter(|_| self.points() > 1) else {
-            return values(SizeFactor::Fixed);
-        };
-        if source.has_open_tail() {
-            let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
+        if self.points() == 1 || source.at_point(&self.proportions_at(0))?.is_none() {
+            let TorqueHarmonics { roll, crank } = amplitudes(&**source, column, orders, cancel)?;
+            let fixed =
+                |values: Vec<Complex64>| values.into_iter().map(SizeFactor::Fixed).collect();
+            return Ok([roll, crank].map(fixed));
+        }
+        let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
+        if let Some(bounds) = source.sizes_up_to_own(column, orders, cancel)? {
+            sizes = bounds;
+        } else {
             for point in 0..self.points() {
                 let there = at_point(source, &self.proportions_at(point))?;
-                let TorqueHarmonics { roll, crank } = of(&*there, column, orders, cancel)?;
+                let TorqueHarmonics { roll, crank } = amplitudes(&*there, column, orders, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
                 }
             }
-            return Ok(sizes.map(|sizes| sizes.into_iter().map(SizeFactor::AtMost).collect()));
         }
-        if source.grows_with_rod_ratio(column) {
-            return values(|value| SizeFactor::AtMost(value.norm()));
-        }
-        let bound = |&order: &Order| {
-            if order.as_whole().is_none() {
-                return SizeFactor::AtMost(0.0);
-            }
-            let own = mechanism.own_highest(order.halves());
-            let beyond = source.beyond(order.halves() - 1, true);
-            SizeFactor::AtMost(match column {
-                Column::Force => beyond.force + f64::from(u8::from(own == 1)),
-                Column::Roll if own < 3 => f64::INFINITY,
-                Column::Roll => beyond.torque,
-            })
-        };
-        let bounds: Vec<SizeFactor> = orders.iter().map(bound).collect();
-        Ok([bounds.clone(), bounds])
+        Ok(sizes.map(|sizes| sizes.into_iter().map(SizeFactor::AtMost).collect()))
     }
 }
 
@@ -355,7 +344,8 @@ mod tests {
         });
         for point in 0..sweep.points() {
             let there = at_point(source, &sweep.proportions_at(point)).unwrap();
-            let TorqueHarmonics { roll, crank } = of(&*there, column, &orders, &cancel).unwrap();
+            let TorqueHarmonics { roll, crank } =
+                amplitudes(&*there, column, &orders, &cancel).unwrap();
             for (found, values) in found.iter_mut().zip([roll, crank]) {
                 found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));
             }

@@ -9,7 +9,7 @@ use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -100,7 +100,7 @@ impl Coefficients {
     pub fn new(
         sweep: &Sweep,
         selection: Selection,
-        (loads, layout): (&LoadList, &Layout),
+        (loads, layout): (&Scene, &Layout),
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {

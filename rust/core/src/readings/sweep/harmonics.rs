@@ -9,13 +9,16 @@ use crate::Complex64;
 use crate::load::{Harmonic, Sources};
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
-use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::pressure::Cycle;
 use crate::readings::quantity::Kind;
-use crate::source::{Column, Point, Source, at_point};
+use crate::source::{Column, Point, Source, amplitudes};
+
+/// Sources at points that are evaluated side by side where they are integrated.
+const SOURCES_AT_ONCE: usize = 64;
 
 /// Real and imaginary parts at some points, order by order.
 type PointColumns = Vec<[Vec<f64>; 2]>;
@@ -86,17 +89,10 @@ impl Sweep {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }
         let (source, column) = (&sources[harmonic.source], harmonic.column);
-        let Some(mechanism) = source.mechanism() else {
-            let values = selection.among(of(&**source, column, &self.orders, cancel)?);
-            for ([re, im], value) in columns.iter_mut().zip(values) {
-                re.fill(value.re);
-                im.fill(value.im);
-            }
-            return Ok(columns);
-        };
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
         let whole: Vec<u32> = self.orders.iter().filter_map(|n| n.as_whole()).collect();
         if let (Some(ratios), None, Column::Force) = (ratios, offsets, column)
+            && let Some(mechanism) = source.mechanism()
             && mechanism.ratio.is_crank_speed()
             && let Some(table) =
                 mechanism.mechanism.force_at_ratios(&ratios[points.clone()], &whole, cancel)
@@ -109,25 +105,33 @@ impl Sweep {
             }
             return Ok(columns);
         }
-        let mut write = |row: usize, values: Vec<Complex64>| {
-            for ([re, im], value) in columns.iter_mut().zip(values) {
-                (re[row], im[row]) = (value.re, value.im);
-            }
-        };
-        let at = |point| at_point(source, &self.at(selection, point));
-        let values = |source: Arc<dyn Source>| {
+        let values = |source: &Arc<dyn Source>| {
             cancel.check()?;
-            Ok(selection.among(of(&*source, column, &self.orders, cancel)?))
+            Ok(selection.among(amplitudes(&**source, column, &self.orders, cancel)?))
         };
-        if source.has_open_tail() {
-            let sources = points.map(at).collect::<Result<Vec<_>>>()?;
+        let at = |point| source.at_point(&self.at(selection, point));
+        let Some(first) = at(points.start)? else {
+            for ([re, im], value) in columns.iter_mut().zip(values(source)?) {
+                re.fill(value.re);
+                im.fill(value.im);
+            }
+            return Ok(columns);
+        };
+        let (mut first, mut row) = (Some(first), 0);
+        for some in parts(points, SOURCES_AT_ONCE) {
+            let source = |point| match first.take() {
+                Some(first) => Ok(first),
+                None => Ok(at(point)?.unwrap_or_else(|| Arc::clone(source))),
+            };
+            let sources = some.map(source).collect::<Result<Vec<_>>>()?;
             let integrated = sources.iter().filter(|source| source.is_integrated(&self.orders));
             let several = integrated.count() > 3;
-            let values = pool::map_if(several, cancel, sources, values)?;
-            values.into_iter().enumerate().for_each(|(row, values)| write(row, values));
-        } else {
-            for (row, point) in points.enumerate() {
-                write(row, values(at(point)?)?);
+            let values = pool::map_if(several, cancel, sources, |source| values(&source))?;
+            for of_point in values {
+                for ([re, im], value) in columns.iter_mut().zip(of_point) {
+                    (re[row], im[row]) = (value.re, value.im);
+                }
+                row += 1;
             }
         }
         Ok(columns)
@@ -138,21 +142,5 @@ impl Selection<'_> {
     /// Its own of two harmonics; those of forces are alike.
     fn among(self, harmonics: TorqueHarmonics) -> Vec<Complex64> {
         if self.quantity.kind == Kind::CrankTorque { harmonics.crank } else { harmonics.roll }
-    }
-}
-
-/// Amplitudes of a source, for the torque on the block and on the crank; those of forces twice.
-pub(super) fn of(
-    source: &dyn Source,
-    column: Column,
-    orders: &[Order],
-    cancel: &Cancel,
-) -> Result<TorqueHarmonics> {
-    match column {
-        Column::Force => {
-            let force = source.force(orders, cancel)?;
-            Ok(TorqueHarmonics { roll: force.clone(), crank: force })
-        }
-        Column::Roll => Ok(source.torque(orders, cancel)?.harmonics),
     }
 }

@@ -4,7 +4,7 @@ use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::load::{
-    BankPhase, Harmonic, Load, LoadList, PhasorSum, SourceIndex, Term, Wanted, count, find_or_push,
+    BankPhase, Harmonic, Load, PhasorSum, Scene, SourceIndex, Term, Wanted, count, find_or_push,
 };
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
@@ -41,7 +41,7 @@ impl Sweep {
     pub(super) fn layouts(
         &self,
         engine: &Engine,
-        loads: &LoadList,
+        loads: &Scene,
         selections: &[Selection],
     ) -> Result<Vec<Layout>> {
         let vee = match &self.axes.bank_angle {
@@ -106,14 +106,14 @@ impl Sweep {
 
 impl Selection<'_> {
     /// Whether it counts the loads of a source.
-    fn counts(&self, loads: &LoadList, source: SourceIndex) -> bool {
+    fn counts(&self, loads: &Scene, source: SourceIndex) -> bool {
         let group = loads.group(source);
         self.scaling.is_none_or(|scaling| scaling == group.scaling)
             && self.quantity.part.has(&group.name)
     }
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
-    fn parts(&self, loads: &LoadList, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
+    fn parts(&self, loads: &Scene, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
         let own = term.harmonic.column == Column::Roll;
         match self.quantity.kind {
             _ if !self.counts(loads, term.harmonic.source) => None,

@@ -24,7 +24,7 @@ use self::kernel::Job;
 use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Group, LoadList, find_or_push};
+use crate::load::{Group, Scene, find_or_push};
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -95,7 +95,7 @@ pub struct Sweep {
     engines: Vec<Arc<Engine>>,
     axes: SweepAxes,
     /// Loads of each engine.
-    loads: Vec<Arc<LoadList>>,
+    loads: Vec<Arc<Scene>>,
     /// Groups of the loads of all engines, and whether each has forces, and torques.
     groups: Vec<(Group, [bool; 2])>,
     /// Places of speeds and loads in a map of cycles.
@@ -132,7 +132,7 @@ impl Sweep {
         for engine in &engines {
             cancel.check()?;
             engine.check_speeds(&axes.rpm)?;
-            let list = LoadList::of(engine, engine.reference(reference_z)?)?;
+            let list = Scene::of(engine, reference_z)?;
             for (k, group) in list.groups.indices().zip(&list.groups) {
                 let new = || (group.clone(), [false; 2]);
                 let (_, has) = find_or_push(&mut groups, |(own, _)| own == group, new);

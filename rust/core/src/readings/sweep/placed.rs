@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Selection, Sweep};
 use crate::load::kinematics::{Kinematics, SourceSum};
-use crate::load::{GroupIndex, LoadList};
+use crate::load::{GroupIndex, Scene};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
@@ -25,11 +25,11 @@ pub(super) struct EngineAtBankAngle {
 impl Sweep {
     /// An engine with one of the swept bank angles.
     pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<EngineAtBankAngle> {
-        let loads: &LoadList = match &self.axes.bank_angle {
+        let loads: &Scene = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let angle = Angle::from_degrees(angles[angle])?;
                 let turned = self.engines[engine].with_bank_angle(angle, *hold)?;
-                &LoadList::new(&turned, self.loads[engine].reference)
+                &*Scene::of(&turned, Some(self.loads[engine].reference))?
             }
             None => &self.loads[engine],
         };

@@ -8,7 +8,7 @@ mod terms;
 use self::terms::Terms;
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::LoadList;
+use crate::load::Scene;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -132,15 +132,26 @@ pub fn orders(
     rtol: f64,
     cancel: &Cancel,
 ) -> Result<(Vec<Order>, ErrorBounds)> {
+    check_without_gas(engine, request)?;
     let omega = angular_speed(request.rpm)?;
-    let loads = LoadList::of(engine, engine.reference(request.reference_z)?)?;
+    let loads = Scene::of(engine, request.reference_z)?;
     let wanted = (request.torque, omega);
-    let (mut orders, left_out) = choice::within_each(rtol, engine, &loads, wanted, cancel)?;
+    let (mut orders, left_out) = choice::within_each(rtol, &loads, wanted, cancel)?;
     if orders.first() != Some(&Order::FIRST) && !orders.contains(&Order::FIRST) {
         orders.push(Order::FIRST);
         orders.sort_unstable();
     }
     Ok((orders, left_out))
+}
+
+/// Rejects torques of an engine with pressure, which do not deviate.
+fn check_without_gas(engine: &Engine, request: &Request) -> Result<()> {
+    if request.torque && engine.cycles_in_use() > 0 {
+        return Err(Error::NoTorque(
+            "tolerances do not count gas pressure; give `torque: false`, or `Engine::without_gas`",
+        ));
+    }
+    Ok(())
 }
 
 impl Tolerances {
@@ -156,11 +167,7 @@ impl Tolerances {
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
-        if request.torque && engine.cycles_in_use() > 0 {
-            return Err(Error::NoTorque(
-                "tolerances do not count gas pressure; give `torque: false`, or `Engine::without_gas`",
-            ));
-        }
+        check_without_gas(engine, request)?;
         check_pins(engine, pin_of)?;
         for (figure, spreads) in Parameter::ALL.into_iter().zip(spreads) {
             check_spreads(engine, pin_of, figure, spreads)?;

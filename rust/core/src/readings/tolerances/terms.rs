@@ -12,9 +12,7 @@ use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Station};
-use crate::load::{
-    Arithmetic, Factor, Load, LoadIndex, LoadList, Phasors, Wanted, Weight, superpose,
-};
+use crate::load::{Arithmetic, Factor, Load, LoadIndex, Phasors, Scene, Wanted, Weight, superpose};
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -58,7 +56,7 @@ pub(super) struct Terms {
     orders: Vec<Order>,
     torque: bool,
     places: Vec<Station>,
-    loads: LoadList,
+    loads: Scene,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
     /// Different cylinders with the speeds of their cranks, and which of them is in each place.
@@ -90,7 +88,7 @@ impl Terms {
         for (i, &pin) in pin_of.iter().enumerate() {
             ratio_of[pin] = ratio(i);
         }
-        let mut loads = LoadList::new(&laden, reference);
+        let mut loads = Scene::clone(&*Scene::of(&laden, Some(reference))?);
         let deviating = |load: &Load| {
             let origin = load.place.origin;
             let pin = pin_of[laden.cylinder_with(origin)?];

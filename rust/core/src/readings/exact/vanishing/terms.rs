@@ -7,7 +7,7 @@ use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_tu
 use super::super::{ExactLoads, ExactMotion, Levers, MotionIndex, too_long};
 use super::ProofQuantity;
 use crate::engine::Engine;
-use crate::load::{self, Harmonic, Load, LoadIndex, LoadList, SourceIndex, Wanted, superpose};
+use crate::load::{self, Harmonic, Load, LoadIndex, Scene, SourceIndex, Wanted, superpose};
 use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::exact::TorqueKey;
 use crate::numbers::cancel::Cancel;
@@ -90,7 +90,7 @@ pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
-    pub loads: LoadList,
+    pub loads: Scene,
     /// Motions, of proportions and speed of a crank.
     pub motions: List<MotionIndex, ExactMotion>,
     /// Motion of each source that has one.
@@ -119,7 +119,7 @@ impl Proof {
         type Known = (Option<f64>, Arc<Proof>);
         let is_such = |(own, _): &Known| own.map(f64::to_bits) == reference.map(f64::to_bits);
         let new = || Ok((reference, Arc::new(Self::new(engine, reference, cancel)?)));
-        Ok(Arc::clone(&engine.kept().get(is_such, new)?.1))
+        Ok(Arc::clone(&Scene::of(engine, reference)?.kept.get(is_such, new)?.1))
     }
 
     fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {

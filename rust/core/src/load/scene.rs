@@ -1,4 +1,4 @@
-//! Every load of an engine in one list, and their sources.
+//! The scene of an engine: every load in one list, their sources, and what readings keep of them.
 
 use std::sync::Arc;
 
@@ -16,8 +16,11 @@ use crate::mechanism::DrivenMechanism;
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
+use crate::numbers::kept::Kept;
 use crate::numbers::order::Order;
-use crate::source::{ExactFactor, INERTIA, Parts, Point, Repeats, Scaling, Source, at_point};
+use crate::source::{
+    ExactFactor, INERTIA, Parts, Point, Repeats, Scaling, Series, Source, at_point,
+};
 
 /// Largest magnitudes of the weights of some loads.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,6 +35,9 @@ pub(crate) struct LargestWeights {
 
 /// The sources of loads.
 pub(crate) type Sources = List<SourceIndex, Arc<dyn Source>>;
+
+/// Series of the sources of loads.
+pub(crate) type KnownSeries = List<SourceIndex, Series>;
 
 /// Sources that are counted together: of one name and scaling.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,9 +57,9 @@ impl Group {
     }
 }
 
-/// All loads of an engine about a reference plane.
+/// All loads of an engine about a reference plane, which every reading asks.
 #[derive(Debug, Clone)]
-pub(crate) struct LoadList {
+pub(crate) struct Scene {
     /// Pistons, one for each cylinder; unbalances of cranks, then of shafts; pressures; rods.
     pub list: List<LoadIndex, Load>,
     /// One of each kind.
@@ -64,22 +70,34 @@ pub(crate) struct LoadList {
     pub group_of: List<SourceIndex, GroupIndex>,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
+    /// The largest crank radius, m: arm of forces in tolerances of torques.
+    pub crank_radius: f64,
+    /// What readings evaluated of it last: orders that were chosen and their wrenches, a proof.
+    pub kept: Kept,
 }
 
-impl LoadList {
-    /// Loads of an engine, which are kept with it.
-    pub fn of(engine: &Engine, reference: f64) -> Result<Arc<Self>> {
+impl Scene {
+    /// That of an engine, made once and kept with it, about a plane, by default midway between its first and its
+    /// last cylinder.
+    pub fn of(engine: &Engine, reference_z: Option<f64>) -> Result<Arc<Self>> {
+        let reference = engine.reference(reference_z)?;
         let is_such = |known: &Self| known.reference.to_bits() == reference.to_bits();
         engine.kept().get(is_such, || Ok(Self::new(engine, reference)))
     }
 
+    #[cfg(test)]
+    pub fn anew(engine: &Engine, reference: f64) -> Self {
+        Self::new(engine, reference)
+    }
+
     /// Loads of an engine. Pistons of equal crank radius, rod length and pin offset share a source, hence
     /// their harmonics; a spectrum is one source for all, with masses and radius in it.
-    pub fn new(engine: &Engine, reference: f64) -> Self {
+    fn new(engine: &Engine, reference: f64) -> Self {
         let mut groups = List::default();
         groups.push(Group { name: INERTIA.into(), scaling: Scaling::SpeedSquared });
         let (list, sources, group_of) = (List::default(), List::default(), List::default());
-        let mut loads = Self { list, sources, groups, group_of, reference };
+        let (crank_radius, kept) = (engine.largest_crank_radius(), Kept::default());
+        let mut loads = Self { list, sources, groups, group_of, reference, crank_radius, kept };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanisms = engine.distinct_cylinders().map_to(Cylinder::mechanism);
         let mechanism = |i: usize| {
@@ -125,7 +143,7 @@ impl LoadList {
             if let Some(((gas, place), roll)) = cycle.zip(engine.swept_by_radius(i)) {
                 let (mechanism, cycle) = (mechanism(i), Arc::clone(&gas.cycles[place]));
                 let crankcase = gas.crankcase;
-                let gas = GasPressure { mechanism, cycle, place, crankcase, known: None };
+                let gas = GasPressure { mechanism, cycle, place, crankcase };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();
