@@ -504,7 +504,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
                     return self.sel(**{name: key})
             if key == ALL and self.orders:
                 return changed(whole, order=ALL)
-        by_place = isinstance(key, (slice, tuple, list)) or key is ... or getattr(key, "ndim", 0)
+        by_place = (
+            isinstance(key, (slice, tuple, list)) or key is ... or bool(getattr(key, "ndim", 0))
+        )
         if self._by_order and not by_place:
             return changed(whole, order=order_key(key))
         array = np.asarray(self)
