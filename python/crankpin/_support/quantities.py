@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 
 class Kind(NamedTuple):
@@ -68,10 +68,10 @@ PART_WORDS = {"gas": "of gas pressure", "inertia": "of inertia forces"}
 """Part of a quantity → its cause in words; others are named after a load."""
 
 
-def kind_of(name: str) -> Kind:
+def kind_of(name: str, registry: Mapping[str, Kind] | None = None) -> Kind:
     """Return the entry of a quantity, or of a part of one, such as ``"torque.gas"``."""
     whole, _, part = name.partition(".")
-    kind = _REGISTRY[whole]
+    kind = (registry or QUANTITIES)[whole]
     if not part:
         return kind
     return kind._replace(name=name, words=f"{kind.words} {PART_WORDS.get(part, f'of {part}')}")
@@ -142,12 +142,19 @@ MOUNTED = {
         Kind("power_lost", "mean power dissipated", ("P",), ("of an order",), "W",
              dims=("mount",), real=True),
         Kind("power_passed", "mean power passed on", ("P",), ("of an order",), "W", real=True),
+    )
+}  # fmt: skip
+"""Name of a quantity of a powertrain on its mounts → its entry."""
+
+MOTIONS = {
+    each.name: each
+    for each in (
         Kind("displacement", "displacement", *_XYZ, "m"),
         Kind("velocity", "velocity", *_XYZ, "m/s"),
         Kind("acceleration", "acceleration", *_XYZ, "m/s²"),
     )
-}  # fmt: skip
-"""Name of a quantity of a powertrain on its mounts → its entry."""
+}
+"""Name of a motion of a point → its entry."""
 
 _BY_CYLINDER: dict[str, Any] = {"dims": ("cylinder",), "real": True, "without": ("rpm", "order")}
 EXCITATIONS = {
@@ -173,8 +180,9 @@ POINTS |= {
 """Name of a quantity of an operating map → its entry."""
 
 _LARGEST = {
-    name: MOUNTED[name]._replace(real=True, words=f"largest {MOUNTED[name].words}")
-    for name in ("body_force", "mount_force", "velocity")
+    name: kind._replace(real=True, words=f"largest {kind.words}")
+    for name, kind in (MOUNTED | MOTIONS).items()
+    if name in ("body_force", "mount_force", "velocity")
 }
 _LARGEST["velocity"] = _LARGEST["velocity"]._replace(dims=("point",))
 DESIGNS = {
@@ -189,5 +197,3 @@ DESIGNS = {
     },
 }  # fmt: skip
 """Name of a quantity of many designs of mounts → its entry."""
-
-_REGISTRY = DESIGNS | POINTS | EXCITATIONS | QUANTITIES | INSIDE | MOUNTED

@@ -17,7 +17,6 @@ from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.geometry import direction
 from crankpin.analysis.labelled import Labelled
-from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 
@@ -25,6 +24,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.frames import Frames
+    from crankpin._support.quantities import Kind
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft
 
@@ -102,8 +103,9 @@ class InsideLoads:
     Shapes are those over crank angle; of an operating map they are (n_rpm, n_load, n).
     """
 
-    def _quantity(self, name: str) -> Quantity[np.float64, NDArray[np.float64]]:
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        def _quantity(self, name: str) -> Quantity[Any, Any, Any]: ...
 
     @property
     def crankpin(self) -> Quantity[np.float64, NDArray[np.float64]]:
@@ -179,6 +181,7 @@ class BearingLoads(InsideLoads, Labelled):
     """Whether peaks are those of the whole cycle, at any angle; else those at the crank angles."""
 
     _along: ClassVar[tuple[str, ...]] = ("theta_deg",)
+    _registry: ClassVar[Mapping[str, Kind]] = INSIDE
 
     def __post_init__(self) -> None:
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
@@ -212,18 +215,6 @@ class BearingLoads(InsideLoads, Labelled):
             "main_bearing": np.arange(1, len(self.main_z) + 1),
             "shared_pin": tuple("+".join(map(str, numbers)) for numbers in self.crankpins),
         }
-
-    @property
-    def _names(self) -> tuple[str, ...]:
-        return tuple(INSIDE)
-
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset: name of the engine, and speed."""
-        return {"engine": self.engine.name, "rpm": self.rpm}
-
-    def _quantity(self, name: str) -> Quantity[np.float64, NDArray[np.float64]]:
-        return Quantity(self, name)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         by_name: dict[str, NDArray[np.float64]] = self.__dict__["_by_name"]

@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support import units as unit_names
 from crankpin._support.frames import Tabled, in_units
-from crankpin._support.quantities import COMPONENTS_OF_LOADS, kind_of, parts_of
+from crankpin._support.quantities import COMPONENTS_OF_LOADS, QUANTITIES, kind_of, parts_of
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.export import VALUES
@@ -39,6 +39,8 @@ class Labelled(Tabled):
 
     _along: ClassVar[tuple[str, ...]] = ()
     """Dimension along which values are at a point: ``order`` or ``theta_deg``; or none."""
+    _registry: ClassVar[Mapping[str, Kind]] = {}
+    """Name of each quantity that it may have → its entry in the registry."""
 
     if TYPE_CHECKING:
 
@@ -48,8 +50,9 @@ class Labelled(Tabled):
 
     @property
     def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values."""
-        return {}
+        """Dimension → its values: the speeds, where there are several."""
+        rpm = getattr(self, "rpm", None)
+        return {"rpm": rpm} if isinstance(rpm, np.ndarray) else {}
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -71,7 +74,7 @@ class Labelled(Tabled):
     @property
     def _names(self) -> tuple[str, ...]:
         """Names of the quantities, with their parts."""
-        raise NotImplementedError
+        return tuple(self._registry)
 
     def _values(self, quantity: str) -> NDArray[Any]:
         """Compute the values of a quantity."""
@@ -84,8 +87,10 @@ class Labelled(Tabled):
 
     @property
     def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the result."""
-        return {}
+        """Attributes of a dataset of the result: name of the engine, and its speed if it is one."""
+        rpm, engine = getattr(self, "rpm", None), getattr(self, "engine", None)
+        about = {} if engine is None else {"engine": engine.name}
+        return about | ({"rpm": rpm} if isinstance(rpm, float) else {})
 
     def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
         return Quantity(self, name)
@@ -96,7 +101,7 @@ class Labelled(Tabled):
 
     def _kind(self, quantity: str) -> Kind:
         """Return the entry of the registry."""
-        return kind_of(quantity)
+        return kind_of(quantity, self._registry)
 
     def _words_of(self, quantity: Quantity) -> str:
         """Return the name of a quantity in texts."""
@@ -138,6 +143,10 @@ class Labelled(Tabled):
         axis = ("axis",) if kind.axes else ()
         dims = (*swept, *kind.dims, *self._along, *axis)
         return export.reduced(tuple(name for name in dims if name not in kind.without), what)
+
+    def _is_by_order(self, quantity: str) -> bool:
+        """Return whether a quantity has the dimension ``order``."""
+        return "order" in self._along and "order" not in self._kind(quantity).without
 
     def _coordinates(self, quantity: str) -> dict[str, Any]:
         """Return dimension → its values, of a quantity."""
@@ -379,8 +388,9 @@ class Labelled(Tabled):
 class ShakingQuantities(Generic[Element, Values, Value]):
     """Mixin of what has force, moment and torques."""
 
-    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        def _quantity(self, name: str) -> Quantity[Any, Any, Any]: ...
 
     @property
     def force(self) -> Quantity[Element, Values, Value]:
@@ -414,6 +424,8 @@ class ShakingQuantities(Generic[Element, Values, Value]):
 class Shaking(ShakingQuantities[Element, Values, Value], Labelled, Generic[Element, Values, Value]):
     """Base class of results that have force, moment and torques, by a request."""
 
+    _registry: ClassVar[Mapping[str, Kind]] = QUANTITIES
+
     if TYPE_CHECKING:
 
         @property
@@ -429,9 +441,6 @@ class Shaking(ShakingQuantities[Element, Values, Value], Labelled, Generic[Eleme
     def causes(self) -> tuple[str, ...]:
         """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
         return ("inertia",)
-
-    def _quantity(self, name: str) -> Quantity[Element, Values, Value]:
-        return Quantity(self, name)
 
     @property
     def _names(self) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.bearings import InsideLoads, bearing_loads
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.labelled import Labelled
-from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.model import checks
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.quantities import Kind
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.cycle_map import CycleMap
     from crankpin.model.engine import Engine
 
@@ -154,6 +154,8 @@ class OperatingMap(InsideLoads, Labelled):
     gas: str
     """Gas pressure that counts, in words."""
 
+    _registry: ClassVar[Mapping[str, Kind]] = POINTS
+
     def __post_init__(self) -> None:
         engine_core(self.engine)
         inputs.vector("rpm", self.rpm)
@@ -177,25 +179,14 @@ class OperatingMap(InsideLoads, Labelled):
         return {name: np.arange(1, count + 1) for name, count in counts.items()}
 
     @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset: name of the engine."""
-        return {"engine": self.engine.name}
-
-    @property
     def _names(self) -> tuple[str, ...]:
         return tuple(self.arrays)
-
-    def _kind(self, quantity: str) -> Kind:
-        return POINTS[quantity]
 
     def _check(self, quantity: str) -> None:
         if quantity in OF_WHEEL and quantity not in self.arrays:
             hint = "give operating_map the inertia of all that turns"
             raise inputs.faulty(quantity, "is not available", hint, AbsentError)
         super()._check(quantity)
-
-    def _quantity(self, name: str) -> Quantity[np.float64]:
-        return Quantity(self, name)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return self.arrays[quantity]

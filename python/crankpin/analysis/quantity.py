@@ -183,12 +183,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """Multiples of crank speed; empty where there are none."""
         if self.order is not None and self.order != ALL:
             return (self.order,)
-        return self.result._orders if "order" in self.result._dims(self.name) else ()
+        return self.result._orders if self.result._is_by_order(self.name) else ()
 
     @property
     def _by_order(self) -> bool:
         """True if a number as key is an order: of every order, and of all together."""
-        return self.order in (None, ALL) and "order" in self.result._dims(self.name)
+        return self.order in (None, ALL) and self.result._is_by_order(self.name)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -408,7 +408,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         return self[ALL]
 
     def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
-        if "axis" in dict(self.selected):  # of one axis, where there are values by axis
+        if self.selected and "axis" in dict(self.selected):  # there are values by axis
             axes = "".join(self.kind.axes)
             what = {"peak": f"peak_{axes}", "rms": f"rms_{axes}"}.get(what, what)
         if what not in self.result._readings(self.name):
@@ -504,7 +504,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
                     return self.sel(**{name: key})
             if key == ALL and self.orders:
                 return changed(whole, order=ALL)
-        by_place = isinstance(key, (slice, tuple, list)) or key is ... or np.ndim(key) > 0
+        by_place = (
+            isinstance(key, (slice, tuple, list)) or key is ... or bool(getattr(key, "ndim", 0))
+        )
         if self._by_order and not by_place:
             return changed(whole, order=order_key(key))
         array = np.asarray(self)
@@ -570,6 +572,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         except (ValueError, OverflowError, ZeroDivisionError) as error:
             hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
             raise inputs.rejected(f"operands of {ufunc.__name__}", arguments, hint) from None
+
+    def __pow__(self, exponent: Any) -> Any:  # noqa: ANN401 - as arrays: squares are products
+        return np.asarray(self) ** exponent
 
     def __array_function__(
         self,

@@ -9,13 +9,12 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import EXCITATIONS, kind_of
+from crankpin._support.quantities import EXCITATIONS
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import contributions
 from crankpin.analysis.labelled import Labelled
-from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import engine_core
 from crankpin.model.computed_cycles import area
 
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin._support.quantities import Kind
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.engine import Engine
 
 HIGHEST = 12
@@ -45,29 +45,16 @@ class TorsionalExcitation(Labelled):
     orders: tuple[Order, ...]
     """Multiples of crank speed."""
     _along: ClassVar[tuple[str, ...]] = ("order",)
-
-    @property
-    def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values: the speeds, where there are several."""
-        return {"rpm": self.rpm} if isinstance(self.rpm, np.ndarray) else {}
+    _registry: ClassVar[Mapping[str, Kind]] = EXCITATIONS
 
     @property
     def _own_coords(self) -> Mapping[str, Any]:
         return {"cylinder": np.arange(1, len(self.engine) + 1)}
 
     @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset: name of the engine, and its speed."""
-        return {"engine": self.engine.name} | ({} if self.coords else {"rpm": self.rpm})
-
-    @property
     def _names(self) -> tuple[str, ...]:
         name, *others = EXCITATIONS
         return (name, *self._parts(name), *others)
-
-    def _kind(self, quantity: str) -> Kind:
-        whole = quantity.partition(".")[0]
-        return kind_of(quantity)._replace(dims=EXCITATIONS[whole].dims)
 
     def _parts(self, quantity: str) -> tuple[str, ...]:
         return tuple(f"{quantity}.{each}" for each in self._named_parts(quantity))
@@ -78,9 +65,6 @@ class TorsionalExcitation(Labelled):
     def _at_order(self, order: Order) -> TorsionalExcitation:
         one: TorsionalExcitation = self._once(order, lambda: changed(self, orders=(order,)))
         return one
-
-    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
-        return Quantity(self, name)
 
     @functools.cached_property
     def _phasors(self) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:

@@ -180,11 +180,6 @@ class Waveform(OverAngle[float]):
         """Dimension → its values: the crank angles."""
         return {"theta_deg": self.theta_deg}
 
-    @property
-    def _attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset: name of the engine, and speed."""
-        return {"engine": self.engine.name, "rpm": self.rpm}
-
     # --- tables and pictures --------------------------------------------------------------------
 
     @property

@@ -141,8 +141,8 @@ def test_lanchester_pair_at_equal_height_leaves_the_roll_torque() -> None:
         assert weight.amount == pytest.approx(MR * A2 / 2, rel=ROUNDING)
         assert (weight.z, weight.angle_deg) == (I4.reference_z, 270.0)
         assert each.y == 0.05
-    assert not fit.moment.any()
-    assert abs(fit.force) == pytest.approx(2 * MR * A2, rel=ROUNDING)
+    assert not fit.exerted_moment.any()
+    assert abs(fit.exerted_force) == pytest.approx(2 * MR * A2, rel=ROUNDING)
 
 
 def test_lanchester_pair_at_the_right_heights_cancels_the_roll_torque() -> None:
@@ -232,7 +232,7 @@ def test_one_shaft_removes_the_backward_couple_of_an_inline_3() -> None:
     for each in (front, rear):
         assert each.amount == pytest.approx(MR * np.sqrt(3) / 2 / 2, rel=ROUNDING)
     assert abs(float(front.angle_deg) - float(rear.angle_deg)) == 180.0
-    assert fit.force[0] == 0.0
+    assert fit.exerted_force[0] == 0.0
 
 
 def test_even_firing_90_degree_v6_takes_counterweights_and_one_shaft() -> None:
@@ -240,7 +240,7 @@ def test_even_firing_90_degree_v6_takes_counterweights_and_one_shaft() -> None:
     assert abs(turning(V6_90, 1, "moment")) / size == pytest.approx(1.673033, abs=1e-6)
     assert abs(turning(V6_90, -1, "moment")) / size == pytest.approx(0.448288, abs=1e-6)
     fit = cp.balance_shafts(halved(V6_90), -1)
-    assert abs(fit.moment[0]) / MR == pytest.approx(0.448288, abs=1e-6)
+    assert abs(fit.exerted_moment[0]) / MR == pytest.approx(0.448288, abs=1e-6)
     after = fit.fitted.balance(RPM, orders=[1])[1]
     assert max(after.force.peak, after.moment.peak) <= ROUNDING * size
 
@@ -251,8 +251,8 @@ def test_even_firing_60_degree_v6_takes_counterweights_and_one_shaft_at_twice_th
     assert abs(turning(V6_60, -2, "moment")) / size == pytest.approx(1.5 * A2, rel=ROUNDING)
     fit = cp.balance_shafts(halved(V6_60), [-1, -2])
     assert fit[0].unbalances == ()
-    assert (fit.force[0], fit.moment[0]) == (0.0, 0.0)
-    assert abs(fit.moment[1]) / MR == pytest.approx(1.5 * A2, rel=ROUNDING)
+    assert (fit.exerted_force[0], fit.exerted_moment[0]) == (0.0, 0.0)
+    assert abs(fit.exerted_moment[1]) / MR == pytest.approx(1.5 * A2, rel=ROUNDING)
     after = cp.balance_shafts(halved(V6_60), -2).fitted.balance(RPM, orders=[1, 2])
     assert max(after.total.force.peak, after.total.moment.peak) <= ROUNDING * size
 
@@ -269,7 +269,7 @@ def test_couples_of_both_inline_5_cranks(times: int, first: float, second: float
     # Upright cylinders: as much forward as backward.
     fit = cp.balance_shafts(halved(i5), [-1, 2, -2])
     expected = [first / 2, second * A2 / 2, second * A2 / 2]
-    np.testing.assert_allclose(abs(fit.moment) / MR, expected, atol=1e-6)
+    np.testing.assert_allclose(abs(fit.exerted_moment) / MR, expected, atol=1e-6)
     after = fit.fitted.balance(RPM, orders=[1, 2]).total
     assert max(after.force.peak, after.moment.peak) <= 10 * ROUNDING * size
 
@@ -369,7 +369,7 @@ def test_bearing_loads(bearings: tuple[float, float]) -> None:
         theta = time_domain.crank_angles(256)
         turning_loads = loads * np.exp(1j * each.ratio * theta)[:, np.newaxis]
         np.testing.assert_allclose(turning_loads, expected, rtol=0, atol=SAMPLED * OMEGA**2)
-        assert abs(loads.sum()) == pytest.approx(abs(fit.force[k]) * OMEGA**2, rel=1e-12)
+        assert abs(loads.sum()) == pytest.approx(abs(fit.exerted_force[k]) * OMEGA**2, rel=1e-12)
     assert fit.bearings == (bearings, bearings)
     with pytest.raises(ValueError, match="read-only"):
         fit.bearing_loads(RPM)[0] = 0.0
@@ -462,7 +462,7 @@ def test_force_alone_and_moment_alone() -> None:
         moment = cp.balance_shafts(HEAVIER, -1, planes=planes, remove="moment")
         assert abs(turning(moment.fitted, -1, "moment")) <= ROUNDING * MR * OMEGA**2
         assert turning(moment.fitted, -1, "force") == pytest.approx(turning(HEAVIER, -1, "force"))
-        assert moment.force[0] == 0.0
+        assert moment.exerted_force[0] == 0.0
     off = cp.balance_shafts(I4, [2, -2], planes=[0.3], remove="force")
     assert off.fitted.balance(RPM, orders=[2])[2].force.peak <= ROUNDING * MR * OMEGA**2
     assert off.fitted.balance(RPM, orders=[2])[2].moment.peak == pytest.approx(
@@ -575,8 +575,8 @@ def test_no_counterweight_changes_what_a_backward_shaft_carries(
         if ratio < 0:
             fits = [cp.balance_shafts(e, ratio, planes=(0.0, 0.4)) for e in (engine, weighted)]
             size = MR * len(engine)
-            assert abs(fits[0].force - fits[1].force).max() <= ROUNDING * size
-            assert abs(fits[0].moment - fits[1].moment).max() <= ROUNDING * size
+            assert abs(fits[0].exerted_force - fits[1].exerted_force).max() <= ROUNDING * size
+            assert abs(fits[0].exerted_moment - fits[1].exerted_moment).max() <= ROUNDING * size
 
 
 @pytest.mark.parametrize("engine", ANY)
@@ -605,10 +605,10 @@ def test_turning_the_engine_turns_the_answer(engine: cp.Engine, turn: int, crank
     of_tilted = cp.balance_shafts(tilted, chosen, planes=planes)
     of_later = cp.balance_shafts(later, chosen, planes=planes)
     for k, (each, aslant, late) in enumerate(zip(there, of_tilted, of_later, strict=True)):
-        force = complex(there.force[k])
-        assert abs(of_tilted.force[k] - turned(force, turn)) <= 1e-11 * size
+        force = complex(there.exerted_force[k])
+        assert abs(of_tilted.exerted_force[k] - turned(force, turn)) <= 1e-11 * size
         back = -crank * each.ratio
-        assert abs(of_later.force[k] - turned(force, back)) <= 1e-11 * size
+        assert abs(of_later.exerted_force[k] - turned(force, back)) <= 1e-11 * size
         where = complex(each.x, each.y)
         if abs(force) > 1e-6 * size:
             room = 1e-6 * max(abs(where), 0.1)
@@ -639,7 +639,7 @@ def test_tables_show_the_fit() -> None:
     assert list(unbalances["unbalance"].values) == [w.amount for w in weights]
     assert list(unbalances["phase"].values) == [w.angle_deg for w in weights]
     assert list(unbalances["z"].values) == [w.z for w in weights]
-    assert list(shafts["moment"].values) == abs(FIT.moment).tolist()
+    assert list(shafts["moment"].values) == abs(FIT.exerted_moment).tolist()
     loads = abs(FIT.bearing_loads(RPM)) / OMEGA**2
     found = [shafts["front load"].values, shafts["rear load"].values]
     np.testing.assert_allclose(np.transpose(found), loads, rtol=1e-12)
@@ -748,7 +748,7 @@ def test_free_places_leave_no_more_roll_torque_than_numpys_least_squares(seed: i
     # Torque for each metre of height: −F_x, which is F or its conjugate.
     rows = np.array([
         [-force.real, -force.imag if ratio > 0 else force.imag]
-        for force, ratio in zip(fixed.force, ratios, strict=True)
+        for force, ratio in zip(fixed.exerted_force, ratios, strict=True)
     ]).T  # fmt: skip
     target = -np.array([left.real, left.imag])
     heights = np.linalg.lstsq(rows, target, rcond=1e-9)[0]

@@ -58,7 +58,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
     >>> import crankpin as cp
     >>> v6 = cp.Engine.preset("v6-60")
     >>> fit = cp.balance_shafts(v6, -2, x=0.1, y=0.05)
-    >>> fit[0].ratio, float(abs(fit.moment[0]).round(6))
+    >>> fit[0].ratio, float(abs(fit.exerted_moment[0]).round(6))
     (-2, 0.00088)
     >>> float(fit.residual[2].moment.peak)
     0.0
@@ -95,12 +95,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return math.fsum(weight.amount for each in self.hardware for weight in each.unbalances)
 
     @property
-    def force(self) -> NDArray[np.complex128]:
+    def exerted_force(self) -> NDArray[np.complex128]:
         """Force that each shaft exerts, over ω²: x + iy at θ = 0, kg·m, (n_shafts,)."""
         return read_only(np.array([each.force for each in self.exerts]))
 
     @property
-    def moment(self) -> NDArray[np.complex128]:
+    def exerted_moment(self) -> NDArray[np.complex128]:
         """Moment that each shaft exerts, over ω²: x + iy at θ = 0, kg·m², (n_shafts,)."""
         return read_only(np.array([each.moment for each in self.exerts]))
 
@@ -234,8 +234,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column(
                 "part", tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware)
             ),
-            Column("force", abs(self.force), "kg·m"),
-            Column("moment", abs(self.moment), "kg·m²"),
+            Column("force", abs(self.exerted_force), "kg·m"),
+            Column("moment", abs(self.exerted_moment), "kg·m²"),
         ]
         known = [each for each in self.bearings if each is not None]
         if len(known) == len(self):

@@ -14,7 +14,6 @@ from crankpin._support.record import AbsentError, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.labelled import Labelled
-from crankpin.analysis.quantity import Quantity
 from crankpin.analysis.request import Request, check_request
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order, Orders
     from crankpin._support.quantities import Kind
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.mounts import Mount
 
 FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
@@ -102,6 +102,7 @@ class DesignResponses(Labelled):
         return self.powertrain.engine.loads_counted
 
     _along: ClassVar[tuple[str, ...]] = ("order",)
+    _registry: ClassVar[Mapping[str, Kind]] = DESIGNS
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -127,12 +128,6 @@ class DesignResponses(Labelled):
             hint = "give Powertrain.designs mount_force=True, or points"
             raise inputs.faulty(quantity, "is not available", hint, AbsentError)
         super()._check(quantity)
-
-    def _kind(self, quantity: str) -> Kind:
-        return DESIGNS[quantity]
-
-    def _quantity(self, name: str) -> Quantity[np.float64]:
-        return Quantity(self, name)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         if quantity == "frequency":

@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOUNTED
+from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOTIONS, MOUNTED
 from crankpin._support.record import AbsentError, changed, read_only
 from crankpin._support.tables import Column, Item, Table
 from crankpin._support.warnings import warn
@@ -31,14 +31,13 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
+    from crankpin._support.quantities import Kind
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.actuators import Actuator
 
 Source: TypeAlias = tuple[Any, ...]
 """Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
-MOTIONS = ("displacement", "velocity", "acceleration")
-"""Motions of a point."""
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
 HIGHEST = "> 180"
@@ -114,6 +113,7 @@ class PointMotion(Labelled):
         return f"the point ({place}) {shown.unit}{on}"
 
     _along: ClassVar[tuple[str, ...]] = ("order",)
+    _registry: ClassVar[Mapping[str, Kind]] = MOTIONS
 
     @property
     def orders(self) -> tuple[Order, ...]:
@@ -124,10 +124,6 @@ class PointMotion(Labelled):
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: the speeds, where there are several."""
         return self.result.coords
-
-    @property
-    def _names(self) -> tuple[str, ...]:
-        return tuple(MOTIONS)
 
     def _quantity(self, name: str) -> Quantity[np.complex128]:
         return Quantity(self, name, self.order)
@@ -225,8 +221,9 @@ def _require_subframe(powertrain: Powertrain, name: str) -> None:
 class MountQuantities:
     """Mixin of a response and of one of its orders: the vectors that both have."""
 
-    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        def _quantity(self, name: str) -> Quantity[Any, Any, Any]: ...
 
     @property
     def body_force(self) -> Quantity[np.complex128]:
@@ -446,12 +443,10 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         super().__post_init__()
 
     _along: ClassVar[tuple[str, ...]] = ("order",)
+    _registry: ClassVar[Mapping[str, Kind]] = MOUNTED
 
     def _of(self) -> tuple[MountResponse, Key]:
         return self, None
-
-    def _quantity(self, name: str) -> Quantity[Any, Any, Any]:
-        return Quantity(self, name)
 
     @property
     def _core(self) -> _core.Response:
@@ -481,11 +476,6 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         return MappingProxyType(dict(zip(names, bounds, strict=True)))
 
     @property
-    def coords(self) -> Mapping[str, Any]:
-        """Dimension → its values: the speeds, where there are several."""
-        return {"rpm": self.rpm} if isinstance(self.rpm, np.ndarray) else {}
-
-    @property
     def _own_coords(self) -> Mapping[str, Any]:
         return {"mount": self.powertrain.names}
 
@@ -493,8 +483,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     def _names(self) -> tuple[str, ...]:
         of_subframe = ("ground_force", "subframe_motion")
         has_subframe = isinstance(self.powertrain.support, Subframe)
-        named = (name for name in MOUNTED if name not in MOTIONS)
-        return tuple(name for name in named if has_subframe or name not in of_subframe)
+        return tuple(name for name in MOUNTED if has_subframe or name not in of_subframe)
 
     def _check(self, quantity: str) -> None:
         if quantity in ("ground_force", "subframe_motion"):

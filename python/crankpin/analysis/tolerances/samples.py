@@ -187,6 +187,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """None: samples do not separate the causes of a quantity."""
         return ()
 
+    def _readings(self, quantity: str) -> tuple[str, ...]:
+        return tuple(each for each in super()._readings(quantity) if each != "cycle_mean")
+
     @property
     def _has_means(self) -> bool:
         """False: spreads are of harmonics, and means have none."""
