@@ -19,6 +19,7 @@ from crankpin.cli import ORDER, _homes, registered
 from crankpin.cli.arguments import READERS, Given
 from crankpin.cli.naming import error_in_options
 from crankpin.cli.options import Parser
+from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS, load
 
 if TYPE_CHECKING:
     from crankpin.cli.options import Option
@@ -99,6 +100,14 @@ def test_a_value_of_a_list_and_one_left_out_are_said() -> None:
     without = inputs.rejected("bound", None, "give it, or minimise=None")
     said = str(error_in_options(without, known, {"bound": None}))
     assert said == "--bound is left out: give it, or --minimise None"
+
+
+def test_units_of_files_are_those_that_are_read() -> None:
+    assert parameter(load, "angle_unit").choices == tuple(ANGLE_UNITS)
+    units = re.findall(
+        r"(\w+)(?:,| or |$)", parameter(load, "pressure_unit").text.partition(": ")[2]
+    )
+    assert units == [*PRESSURE_UNITS]
 
 
 def test_values_are_read_as_their_function_declares_them() -> None:

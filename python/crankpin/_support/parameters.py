@@ -222,7 +222,7 @@ def _completed(function: Any, homes: list[str]) -> str:  # noqa: ANN401 - a func
     texts = dict[str, Entry]()
     for home in reversed(homes):
         texts |= entries(home)
-    parameters = _entries(function, entries(function.__doc__), texts)
+    parameters = _entries(function, entries(function.__doc__), texts, entries(homes[0]))
     others = {title: present.get(title) or first.get(title, "") for title in COMPLETED}
     if function.__annotations__.get("return") in (None, "None"):
         others["Returns"] = ""
@@ -245,6 +245,7 @@ def _entries(
     function: Any,  # noqa: ANN401 - a function
     present: dict[str, Entry],
     homes: dict[str, Entry],
+    first: dict[str, Entry],
 ) -> Iterator[tuple[str, str, str]]:
     """Yield name, type and text of the parameters of a function, in their sequence."""
     code = function.__code__
@@ -261,12 +262,14 @@ def _entries(
             words = _DEFAULT.sub("", homes[name].words)
             yield name, words + _default(defaults, name), homes[name].text
     yield from ((name, *entry) for name, entry in present.items() if name not in names)
-    if (
-        "**options" in homes
-        and code.co_flags & inspect.CO_VARKEYWORDS
-        and "**options" not in present
-    ):
-        yield ("**options", *homes["**options"])
+    if code.co_flags & inspect.CO_VARKEYWORDS and "**options" not in present:
+        others = (
+            f"``{name}``{''.join(re.findall(', default .*', words))}: {text}"
+            for name, (words, text) in first.items()
+            if name not in names
+        )
+        of_home = Entry("dict, optional", "\n".join(others))
+        yield ("**options", *homes.get("**options", of_home))
 
 
 def _default(defaults: dict[str, Any], name: str) -> str:

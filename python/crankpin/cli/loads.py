@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from crankpin._core import ATMOSPHERE, InputError
+from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
@@ -14,10 +14,11 @@ from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
-from crankpin.cli.options import command, keywords, option, rejected
+from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
+from crankpin.model.cycle_files import load
 from crankpin.model.traces import Traces
 
 if TYPE_CHECKING:
@@ -27,28 +28,38 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.prepared_trace import PreparedTrace
     from crankpin.cli.arguments import Given
+    from crankpin.cli.options import Option
     from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
-OF_A_FILE = tuple(
-    option(
-        flag,
-        group="the file of --cycle",
-        argument="gauge" if flag == "--absolute" else "",  # which it sets to False
+
+def _columns(given: Given, flag: str) -> list[int | str]:
+    """Return columns by number or name."""
+    parts = (part.strip() for part in given.text(flag).split(","))
+    return [int(part) if part.isdecimal() else part for part in parts]
+
+
+def _of_files(group: str, **tdc: Any) -> tuple[Option, ...]:  # noqa: ANN401 - settings
+    """Return the options by which files of pressure are read."""
+    return (
+        *keywords(load, "pressure_unit gauge", group),
+        keyword(load, "gauge", "--absolute", group=group, help="pressure is absolute"),
+        *keywords(load, "atmosphere angle_unit recorded_rpm", group),
+        keyword(load, "tdc_deg", group=group, **tdc),
+        keyword(
+            load,
+            "columns",
+            group=group,
+            read=_columns,
+            metavar="A,P,…",
+            more="; several cycles are averaged",
+        ),
+        *keywords(load, "sheet", group),
     )
-    for flag in [
-        "--pressure-unit",
-        "--gauge",
-        "--absolute",
-        "--atmosphere",
-        "--angle-unit",
-        "--recorded-rpm",
-        "--tdc",
-        "--columns",
-        "--sheet",
-    ]
-)
+
+
+OF_A_FILE = _of_files("the file of --cycle")
 """Options that need a file of ``--cycle``."""
 WITHOUT = "none"
 """Value of ``--cycle`` for no gas pressure."""
@@ -137,7 +148,7 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         engine = engine.replace(firing_order=order)
     kind, _, load = (typed or "").partition(":")
     named = typed is None or kind in EXAMPLES or typed == WITHOUT
-    of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
+    of_a_file = [each.label for each in OF_A_FILE if given.text(each.label)]
     if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
     bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
@@ -161,8 +172,7 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         example: Any = kind or next(iter(EXAMPLES))
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
-        read_as = _read_as(given, strokes, given.optional("--tdc", "°") or 0.0)
-        cycle = _loaded(Cycle.load, "--cycle", typed, read_as)
+        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(given, strokes))
     cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
@@ -188,13 +198,12 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     "name",
     option("file", metavar="FILE", help="cylinder pressure of one or many cycles, a text file"),
     "--bore",
-    *(each._replace(group="the files") for each in OF_A_FILE if "--tdc" not in each.names),
-    option(
-        "--tdc",
-        group="the files",
+    *_of_files(
+        "the files",
+        read=lambda given, flag: given.one_or_several(flag, "°"),
         metavar="ANGLE,…",
-        help="angle of the firing top dead centre as the file counts, degrees (default: 0); of "
-        "several cylinders in one file that of each, their columns of pressure in --columns",
+        more="; of several cylinders in one file that of each, their columns of pressure in "
+        "--columns",
     ),
     option("--motored", metavar="FILE", help="the same without combustion, which finds the TDC"),
     *keywords(
@@ -208,12 +217,14 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
 def _trace(given: Given) -> Shown:
     engine = given.engine("trace")
     cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
-    centres = given.numbers("--tdc", "°") or [0.0]
-    several = len(centres) > 1
+    read_as = _read_as(given, engine.strokes)
+    centres = read_as.get("tdc_deg")
+    several = isinstance(centres, list)
     if several and len(centres) != len(engine):
         hint = f"the engine has {len(engine)} cylinders; give one angle, or one for each"
         raise rejected("--tdc", given.text("--tdc"), hint)
-    read_as = _read_as(given, engine.strokes, centres if several else centres[0])
+    if several:
+        read_as.setdefault("columns", None)
 
     def loaded(option: str, path: str) -> tuple[Traces, ...]:
         if several:
@@ -290,23 +301,8 @@ def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOpti
         raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
 
 
-def _read_as(given: Given, strokes: int, tdc_deg: Any) -> FileOptions:  # noqa: ANN401 - one or several
+def _read_as(given: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several
     """Return how a file of cylinder pressure is read."""
-    gauge, absolute = given.text("--gauge"), given.text("--absolute")
-    if gauge and absolute:
+    if given.text("--gauge") and given.text("--absolute"):
         raise inputs.faulty("--gauge", "cannot be combined with --absolute", "give one of them")
-    columns: Any = None
-    if (listed := given.text("--columns")) is not None:
-        parts = (part.strip() for part in listed.split(","))
-        columns = [int(part) if part.isdecimal() else part for part in parts]
-    return {
-        "pressure_unit": given.text("--pressure-unit"),
-        "angle_unit": given.text("--angle-unit"),
-        "gauge": gauge if gauge or absolute else None,
-        "atmosphere": given.optional("--atmosphere", "Pa") or ATMOSPHERE,
-        "recorded_rpm": given.optional("--recorded-rpm", "rpm"),
-        "tdc_deg": tdc_deg,
-        "columns": columns,
-        "sheet": given.text("--sheet"),
-        "strokes": strokes,
-    }
+    return {"strokes": strokes, **given.keywords(load)}

@@ -12,7 +12,6 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.parameters import parameter
 from crankpin._support.quantities import QUANTITIES
-from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -127,37 +126,6 @@ OPTIONS: dict[str, dict[str, Any]] = {
     "--firing-order": {
         "help": "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
         "engine's own, if it is known)"
-    },
-    "--pressure-unit": {
-        "metavar": "UNIT",
-        "help": f"unit of pressure: {', '.join(PRESSURE_UNITS)} (default: what its header names)",
-    },
-    "--gauge": {
-        "action": "store_true",
-        "help": "pressure is above that of the atmosphere (default: what its header says)",
-    },
-    "--atmosphere": {
-        "metavar": "P",
-        "help": "pressure added to gauge pressure, Pa or 1.01bar (default: 101325)",
-    },
-    "--absolute": {"action": "store_true", "help": "pressure is absolute"},
-    "--angle-unit": {
-        "choices": tuple(ANGLE_UNITS),
-        "help": "unit of angles, or of times (default: what its header names, else deg)",
-    },
-    "--tdc": {
-        "metavar": "ANGLE",
-        "help": "angle of the firing top dead centre as the file counts, degrees (default: 0)",
-    },
-    "--columns": {
-        "metavar": "A,P,…",
-        "help": "columns of angle and pressure, those of further cycles after them, by number from "
-        "0 or name (default: 0,1 and all that are like 1); several cycles are averaged",
-    },
-    "--sheet": {"metavar": "NAME", "help": "sheet of a spreadsheet (default: the first)"},
-    "--recorded-rpm": {
-        "metavar": "RPM",
-        "help": "crank speed of a record over time of less than three cycles",
     },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {

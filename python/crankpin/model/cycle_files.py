@@ -12,6 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import files, inputs
+from crankpin._support.parameters import documented
 from crankpin._support.warnings import warn
 from crankpin.model import table_files
 
@@ -138,25 +139,29 @@ def load(
     path : str or pathlib.Path
         ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``, or ``.xlsx``, which needs
         ``pip install "crankpin[excel]"``.
-    **options : dict, optional
-        ``pressure_unit``: ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or
-        ``"psi"``; by default what the header names.
-        ``gauge``: True for pressure above that of the atmosphere, False for absolute pressure;
-        by default what the header says.
-        ``atmosphere``: pressure added to gauge pressure, Pa, by default 101325.
-        ``angle_unit``: ``"deg"`` or ``"rad"``, or ``"s"`` or ``"ms"`` for a record over time;
-        by default what the header names, else degrees. Times become angles at a constant
-        speed, that at which three or more compressions follow each other.
-        ``recorded_rpm``: crank speed of a record over time, rpm, where it is too short for
-        that.
-        ``tdc_deg``: angle of the firing top dead centre as the file counts angles, from
-        whatever event, degrees, by default 0.
-        ``columns``: numbers from 0, or names, with or without unit, of the columns of angle and
-        pressure, those of further cycles after them; by default the first two, and all that are
-        like the second.
-        ``sheet``: name of the sheet of a spreadsheet, by default the first.
-        ``strokes``: 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
-        ``name``: by default the name of the file, or what :meth:`Cycle.save` has written.
+    columns : sequence of int or str, optional
+        Columns of angle and pressure, those of further cycles after them, by number from 0 or name;
+        by default the first two, and all that are like the second. Names are with or without unit.
+    sheet : str, optional
+        Sheet of a spreadsheet; by default the first.
+    tdc_deg : float, default 0.0
+        Angle of the firing top dead centre as the file counts, degrees, from whatever event.
+    pressure_unit : str, optional
+        Unit of pressure: Pa, hPa, kPa, MPa, mbar, bar or psi; by default what the header names.
+    angle_unit : {"deg", "rad", "s", "ms"}, optional
+        Unit of angles, or of times; by default what the header names, else degrees. Times become
+        angles at a constant speed, that at which three or more compressions follow each other.
+    gauge : bool, optional
+        True for pressure above that of the atmosphere; by default what the header says. False for
+        absolute pressure.
+    atmosphere : float, default 101325.0
+        Pressure added to gauge pressure, Pa.
+    recorded_rpm : float, optional
+        Crank speed of a record over time, rpm, of less than three cycles.
+    strokes : {4, 2}, optional
+        Strokes of a cycle, 4 or 2; by default 4, or what :meth:`Cycle.save` has written.
+    name : str, optional
+        Name; by default that of the file, or what :meth:`Cycle.save` has written.
 
     Raises
     ------
@@ -185,6 +190,7 @@ def load(
     return _recorded(text, chosen is None, tdc_deg, known, *options)
 
 
+@documented(load)
 def load_cylinders(
     path: str | Path,
     columns: Sequence[Column | Sequence[Column]],

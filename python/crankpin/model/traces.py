@@ -164,7 +164,7 @@ class Traces(Tabled, Input):
         return cls(*cycle_files.load(path, **options)[:5])
 
     @classmethod
-    @documented(load)
+    @documented(cycle_files.load_cylinders)
     def load_cylinders(
         cls,
         path: str | Path,
