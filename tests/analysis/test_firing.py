@@ -77,7 +77,7 @@ def test_the_cross_plane_v8_fires_evenly_in_the_page_s_order() -> None:
     assert fires.firing_order == firing.CROSSPLANE
     assert fires.angles_deg.tolist() == [0.0, 630.0, 270.0, 180.0, 450.0, 360.0, 540.0, 90.0]
     assert fires.revolutions == (0, 1, 0, 0, 1, 1, 1, 0)
-    assert v8.firings(firing.CROSSPLANE) == (fires,)
+    assert v8.firing_schedules(firing.CROSSPLANE) == (fires,)
     # An order has no beginning.
     assert v8.firing("6-5-7-2-1-8-4-3") == fires
     assert v8.firing([4, 3, 6, 5, 7, 2, 1, 8]) == fires
@@ -146,7 +146,7 @@ LISTED = ["-".join(map(str, order)) for order in ijesc.FIRING_ORDERS]
 @in_turn("v_angle", range(10, 180, 10))
 def test_every_choice_of_turns_of_the_ijesc_engine(order: str, v_angle: int) -> None:
     engine = cp.Engine.preset(f"ijesc-v6-{order}").with_bank_angle(v_angle, hold="pins")
-    ways = engine.firings(order)
+    ways = engine.firing_schedules(order)
     lags = ijesc.lags_deg(firing.numbers(order)).tolist()
     expected = firing.ways_of(order, firing.ijesc_tdc(lags, v_angle))
     assert intervals(ways) == floats(expected)
@@ -176,7 +176,7 @@ def test_at_120_degrees_the_ijesc_order_cannot_be_had(order: str) -> None:
 
 def test_at_60_degrees_two_ijesc_orders_fire_in_one_turn_and_rest_for_420() -> None:
     for order in LISTED[1:3]:
-        ways = cp.Engine.preset(f"ijesc-v6-{order}").firings(order)
+        ways = cp.Engine.preset(f"ijesc-v6-{order}").firing_schedules(order)
         one_turn = [60.0] * 5 + [420.0]
         assert sorted(map(sorted, intervals(ways))) == [one_turn] * 6
         assert one_turn in [way.intervals_deg.tolist() for way in ways]
@@ -197,7 +197,7 @@ def test_presets_fire_evenly(name: str, order: str) -> None:
 @pytest.mark.parametrize(("name", "order", "gaps"), [(n, *f) for n, f in UNEVEN.items()])
 def test_presets_fire_unevenly(name: str, order: str, gaps: tuple[int, ...]) -> None:
     engine = cp.Engine.preset(name)
-    assert gaps in [tuple(way.intervals_deg.tolist()) for way in engine.firings(order)]
+    assert gaps in [tuple(way.intervals_deg.tolist()) for way in engine.firing_schedules(order)]
     assert not any(way.even for way in engine.firing_orders())
 
 
@@ -231,7 +231,7 @@ def test_two_strokes() -> None:
     assert only.even
     assert only.intervals_deg.tolist() == [120.0] * 3
     assert only.angles_deg.tolist() == [0.0, 240.0, 120.0]
-    assert i3.firings("1-2-3", strokes=2) == ()
+    assert i3.firing_schedules("1-2-3", strokes=2) == ()
     with pytest.raises(cp.InputError, match=r"1-2-3: .* TDC sequence is 1, 3, 2\. .*: 1-3-2$"):
         i3.firing("1-2-3", strokes=2)
     # A four-stroke with the same crank needs the other turn for an even 240.
@@ -297,8 +297,8 @@ def test_a_mirrored_boxer_fires_in_pairs_as_a_two_stroke() -> None:
     assert only.order == (1, 2, 3, 4)
     assert only.intervals_deg.tolist() == [0.0, 180.0, 0.0, 180.0]
     assert BOXER.firing("4+3-2+1", strokes=2) == only
-    assert BOXER.firings("1-2-3-4", strokes=2) == ()
-    assert BOXER.firings("1+3-2+4", strokes=2) == ()
+    assert BOXER.firing_schedules("1-2-3-4", strokes=2) == ()
+    assert BOXER.firing_schedules("1+3-2+4", strokes=2) == ()
 
 
 # --- strokes and valves ---------------------------------------------------------------------------
@@ -552,7 +552,7 @@ def made_for(order: list[int], wanted: list[int], **options: Any) -> cp.Engine: 
     # Rotated to cylinder 1, as the result has it.
     first = order.index(1)
     rotated = wanted[first:] + wanted[:first]
-    assert rotated in [way.intervals_deg.tolist() for way in engine.firings()]
+    assert rotated in [way.intervals_deg.tolist() for way in engine.firing_schedules()]
     assert bool(warned) == (engine.firing().intervals_deg.tolist() != rotated)
     return engine
 
@@ -686,7 +686,7 @@ def test_every_choice_of_turns_is_listed_once(tdc: list[Fraction], strokes: int)
 def test_every_listed_order_can_be_named(tdc: list[Any], strokes: int) -> None:
     engine = inline(tdc)
     for way in engine.firing_orders(strokes=strokes):
-        ways = engine.firings(way.firing_order, strokes=strokes)
+        ways = engine.firing_schedules(way.firing_order, strokes=strokes)
         assert way in ways
         best = engine.firing(way.firing_order, strokes=strokes)
         assert best == ways[0]
@@ -703,7 +703,7 @@ def test_what_is_not_listed_cannot_be_named(
     order = data.draw(st.permutations(range(1, len(tdc) + 1)))
     text = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
     expected = firing.ways_of(text, tdc, strokes)
-    assert intervals(engine.firings(order, strokes=strokes)) == floats(expected)
+    assert intervals(engine.firing_schedules(order, strokes=strokes)) == floats(expected)
     if not expected:
         with pytest.raises(cp.InputError, match="firing_order = "):
             engine.firing(order, strokes=strokes)
@@ -763,7 +763,7 @@ def test_refusals() -> None:
         "firing_order = 1-2-3-4: this crank cannot fire in this order: its TDC sequence is 1+4, "
         "2+3. Possible orders, most even first: 1-2-4-3, 1-3-4-2, 1-2+3-4, …"
     )
-    for ask in (i4.firing, i4.firings):
+    for ask in (i4.firing, i4.firing_schedules):
         with pytest.raises(
             cp.InputError, match="1-3-2: 4 is missing; name each of the engine's 4 cylinders"
         ):
@@ -880,7 +880,7 @@ def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
 def test_command_of_an_order_in_several_turns(capsys: CAPTURE) -> None:
     name = "ijesc-v6-1-4-5-2-3-6"
     lines = printed(capsys, "firing", name, "--firing-order", "1-4-5-2-3-6").splitlines()
-    ways = cp.Engine.preset(name).firings("1-4-5-2-3-6")
+    ways = cp.Engine.preset(name).firing_schedules("1-4-5-2-3-6")
     told = ["  " + "-".join(f"{each:g}" for each in way.intervals_deg) for way in ways]
     assert lines[-5:] == told[1:]
     assert told[0].strip() in lines[0]

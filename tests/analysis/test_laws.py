@@ -213,7 +213,7 @@ QUESTIONS: dict[str, Callable[[cp.Engine], cp.results.Balance]] = {
 
 def answer(balance: cp.results.Balance) -> tuple[Any, ...]:
     """Return all that a balance says of its engine, as bits."""
-    names = balance.request.quantities
+    names = balance._request.quantities
     arrays = [balance.read(name, what) for name in names for what in ("values", "zero_bound")]
     totals = [balance.read(name, "total_peak") for name in names]
     bits = [np.asarray(array).tobytes() for array in (*arrays, *totals)]

@@ -364,11 +364,11 @@ def test_bob_weights_act_in_the_sense_of_their_cranks(seed: int) -> None:
             longest, shortest = bob.half_axes(name, factor)
             assert abs(longest - left.peak) <= scale
             assert abs(shortest - left.minor) <= scale
-        least = bob.least(name)
+        least = bob.optimal_factor(name)
         if least is not None:
             longest, _ = bob.half_axes(name, np.linspace(0.0, 3.0, 601))
             assert bob.half_axes(name, least)[0] <= longest.min() + scale
-        for factor, direction in bob.straight(name):
+        for factor, direction in bob.straight_line_factors(name):
             left = getattr(cp.bob_weight(engine, factor).residual[1], name)
             assert abs(left.minor) <= 1e-9 * left.peak
             assert math.remainder(left.tilt_deg - direction, 180.0) == pytest.approx(0.0, abs=1e-5)

@@ -71,7 +71,7 @@ def test_a_run_up_is_the_response(car: Path, capsys: CAPTURE) -> None:
 
 def test_a_misfire_and_a_point(car: Path, capsys: CAPTURE) -> None:
     text = printed(capsys, car, "--rpm", 800, "--misfire", 3, "--at", "0,300mm,0")
-    motion = CAR.without(cylinder=3).response(800).at((0, 0.3, 0))
+    motion = CAR.with_misfire(cylinder=3).response(800).at((0, 0.3, 0))
     assert motion.table.text() in text
     assert "cylinder 3 does not fire" in text
 
@@ -219,18 +219,18 @@ def test_points_of_the_support_are_printed_and_drawn(tmp_path: Path, capsys: CAP
         cp.RigidBody(100, (0, -0.1, 0.2), (9, 12, 6)),
         [mount.replace(stiffness=8e5, loss_factor=0.1) for mount in CAR.mounts],
     )
-    CAR.on(base).save(path := tmp_path / "soft.toml")
+    CAR.with_support(base).save(path := tmp_path / "soft.toml")
     typed = (path, "--rpm", "800:900:50", "--at", "0,-0.1,0.2", "--on", "support")
     picture = tmp_path / "rail.png"
     text = printed(capsys, *typed, "--picture", "map", "--plot", picture)
-    motion = CAR.on(base).response([800, 850, 900]).at((0, -0.1, 0.2), on="support")
+    motion = CAR.with_support(base).response([800, 850, 900]).at((0, -0.1, 0.2), on="support")
     assert motion.table.text() in text
     assert picture.stat().st_size > 5000
-    assert CAR.on(base).modes().frames["subframe"].text() in printed(capsys, path)
+    assert CAR.with_support(base).modes().frames["subframe"].text() in printed(capsys, path)
     zero = cp.Receptance(
         [("rear", "y")], ([1.0, 5000.0], [[[0.0]]] * 2), {"seat": [[[1e-7]] * 3] * 2}
     )
-    CAR.on(zero).save(path)
+    CAR.with_support(zero).save(path)
     text = printed(capsys, path, "--rpm", "800", "--orders", "2", "--at", "seat")
     assert "motion of 'seat'" in text
     assert "support = a receptance" in failed(capsys, path)

@@ -140,7 +140,7 @@ def problem(call: Call, changed: str = "") -> str:
     return found and f"{call!r} {found}"
 
 
-TAKE_NAN = {"Sweep.least"}
+TAKE_NAN = {"Sweep.at_minimum"}
 """Targets that leave out numbers that are none, as their docstrings say."""
 DERIVED = {
     "throws_deg": "number of cylinders",

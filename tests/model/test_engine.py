@@ -119,7 +119,7 @@ def test_bank_angle_of_one_bank_cannot_be_changed() -> None:
 
 def test_the_firing_order_is_used_where_none_is_given() -> None:
     assert I4.firing() == I4.firing("1-3-4-2")
-    assert I4.firings() == I4.firings("1-3-4-2")
+    assert I4.firing_schedules() == I4.firing_schedules("1-3-4-2")
     assert I4.fires_evenly
     assert I4.firing_intervals_deg.tolist() == [180.0] * 4
     assert not cp.Engine.preset("v6-90-odd-fire").fires_evenly

@@ -49,7 +49,7 @@ def random_engine(rng: np.random.Generator) -> cp.Engine:
 
 
 def fired(engine: cp.Engine) -> cp.Engine:
-    order = engine.firings("-".join(map(str, np.argsort(engine.tdc_deg) + 1)))[0]
+    order = engine.firing_schedules("-".join(map(str, np.argsort(engine.tdc_deg) + 1)))[0]
     return engine.replace(firing_order=order.firing_order).with_cycle(cp.Cycle.example())
 
 

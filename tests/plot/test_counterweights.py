@@ -99,7 +99,7 @@ def test_bob_weights_show_what_stays() -> None:
     assert {0.0, 0.5, 0.55, 1.0} <= set(factors.round(12))
     own = bob.half_axes("moment", 0.55)
     assert marks(ax)["o"] == [(0.55, own[0]), (0.55, abs(own[1]))]
-    lines = bob.straight("moment")
+    lines = bob.straight_line_factors("moment")
     assert marks(ax)["D"] == [(factor, 0.0) for factor, _ in lines]
     assert [text.get_text() for text in ax.texts] == ["90°", "0°"]
     assert title_of(ax) == "V6 90°, split pins\nrocking moment of order 1 over ω²"

@@ -59,7 +59,7 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
         balancing.REACHED,
     }
     for k, name in enumerate(["total shaking force", "total rocking moment"]):
-        expected = [100.0 * each.values[k] / start[k] for each in OPTIONS.front]
+        expected = [100.0 * each.values[k] / start[k] for each in OPTIONS.pareto_front]
         np.testing.assert_allclose(drawn[name].get_xdata(), expected, rtol=1e-12)
     names = [text.get_text() for text in ax.get_yticklabels()]
     assert names[:3] == ["nothing", "weights", "+2"]
@@ -67,14 +67,14 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
     (target,) = (line for line in ax.lines if line.get_gid() == balancing.TARGET)
     assert np.asarray(target.get_xdata())[0] == pytest.approx(100.0 * 900.0 / start[1])
     ringed = drawn["target reached"].get_ydata().tolist()
-    assert ringed == [k for k, each in enumerate(OPTIONS.front) if each.reaches]
-    assert 0 < len(ringed) < len(OPTIONS.front)
+    assert ringed == [k for k, each in enumerate(OPTIONS.pareto_front) if each.reaches]
+    assert 0 < len(ringed) < len(OPTIONS.pareto_front)
     (amounts,) = ax.child_axes
     shown = [
         float(text.get_text().replace("\N{NO-BREAK SPACE}", ""))
         for text in amounts.get_yticklabels()
     ]
-    np.testing.assert_allclose(shown, [1000 * e.unbalance for e in OPTIONS.front], rtol=1e-2)
+    np.testing.assert_allclose(shown, [1000 * e.unbalance for e in OPTIONS.pareto_front], rtol=1e-2)
 
 
 def test_sets_that_do_not_fit_are_counted() -> None:
@@ -82,9 +82,9 @@ def test_sets_that_do_not_fit_are_counted() -> None:
     ax = figure.subplots()
     OPTIONS.plot(ax)
     rows = len(ax.get_yticks())
-    assert rows < len(OPTIONS.front)
+    assert rows < len(OPTIONS.pareto_front)
     title = " ".join(ax.get_title(loc="left").split())
-    assert title.endswith(f"; {len(OPTIONS.front) - rows} more")
+    assert title.endswith(f"; {len(OPTIONS.pareto_front) - rows} more")
     (size,) = {text.get_fontsize() for text in ax.get_yticklabels()}
     assert float(size) >= balancing.SMALLEST
 

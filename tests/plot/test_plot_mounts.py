@@ -29,7 +29,7 @@ MOUNTED = cp.Powertrain(
         cp.Mount("rear", at=(0, -0.12, 0.55), stiffness=(1e5, 1.8e5, 1e5), loss_factor=0.1),
     ],
 )
-RUN_UP = MOUNTED.without(cylinder=3).response(np.arange(600, 3001, 100))
+RUN_UP = MOUNTED.with_misfire(cylinder=3).response(np.arange(600, 3001, 100))
 COORDINATES = (2, 0, 1, 5, 3, 4)
 
 

@@ -250,7 +250,7 @@ def test_inputs_alone_have_replace(name: str) -> None:
 
 
 FRESH: dict[str, Callable[[Any], Any]] = {
-    "Balance": lambda b: b.engine.balance(b.rpm, orders=b.request.orders, spectrum=b.spectrum),
+    "Balance": lambda b: b.engine.balance(b.rpm, orders=b._request.orders, spectrum=b.spectrum),
     "BalanceShafts": lambda s: cp.balance_shafts(s.engine, [2, -2]),
     "BearingLoads": lambda b: cp.bearing_loads(b.engine, b.rpm, b.theta_deg),
     "Comparison": lambda c: cp.compare(c.before.engine, c.after.engine, c.rpm, orders=[1, 2]),

@@ -72,7 +72,9 @@ def test_what_well_known_engines_leave(name: str) -> None:
 
 def test_straight_lines_and_firing() -> None:
     """½(1 ∓ cos 45°) of a 45° twin, and the intervals that the page tells."""
-    (low, along), (high, across) = cp.bob_weight(ENGINES["45° twin"].engine).straight("force")
+    (low, along), (high, across) = cp.bob_weight(ENGINES["45° twin"].engine).straight_line_factors(
+        "force"
+    )
     np.testing.assert_allclose([low, high], [0.5 - HALF / 2.0, 0.5 + HALF / 2.0], rtol=1e-12)
     assert (along, across) == (90.0, 0.0)
     assert {*inline(0, 270).firing_orders()[0].intervals_text.split("-")} == {"270", "450"}

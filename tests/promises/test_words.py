@@ -188,7 +188,7 @@ def test_the_core_says_no_names_of_python_and_its_binding_adds_them() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["give bore=… to it", "or strokes=4", "torque=False was given", "p.on(…)"]
+    "text", ["give bore=… to it", "or strokes=4", "torque=False was given", "p.with_support(…)"]
 )
 def test_names_of_python_are_known(text: str) -> None:
     (literal,) = literals(f'error("{text}")')

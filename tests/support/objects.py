@@ -225,13 +225,13 @@ OBJECTS = Made(
         "WorstForce": lambda: MOUNTED.response(3000.0).worst(),
         "Subframe": lambda: RAFT,
         "Receptance": lambda: PANEL,
-        "Powertrain on a subframe": lambda: MOUNTED.on(RAFT),
-        "Powertrain on a receptance": lambda: MOUNTED.on(PANEL),
-        "MountResponse on a subframe": lambda: MOUNTED.on(RAFT).response(
+        "Powertrain on a subframe": lambda: MOUNTED.with_support(RAFT),
+        "Powertrain on a receptance": lambda: MOUNTED.with_support(PANEL),
+        "MountResponse on a subframe": lambda: MOUNTED.with_support(RAFT).response(
             [900.0, 3000.0], orders=[1, 2]
         ),
         "PointMotion of a receiver": lambda: (
-            MOUNTED.on(PANEL).response(3000.0, orders=[1, 2]).at("rail")
+            MOUNTED.with_support(PANEL).response(3000.0, orders=[1, 2]).at("rail")
         ),
         "MountRobustness": lambda: MOUNTED.robustness(
             0.1, cg=1e-3, corners="mounts", frequency=20.0

@@ -260,13 +260,15 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "table-words": lambda **place: V8.vanishing_orders().plot(**place),
     "mount-modes": MOUNTED.modes().plot,
     "mount-cuts": lambda **place: (
-        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(**place)
+        MOUNTED.with_misfire(cylinder=3).response(range(500, 6001, 20)).plot(**place)
     ),
     "mount-map": lambda **place: (
-        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
+        MOUNTED.with_misfire(cylinder=3).response(range(500, 6001, 20)).plot(kind="map", **place)
     ),
     "mount-waterfall": lambda **place: (
-        MOUNTED.without(cylinder=3).response(range(500, 6001, 20)).plot(kind="waterfall", **place)
+        MOUNTED.with_misfire(cylinder=3)
+        .response(range(500, 6001, 20))
+        .plot(kind="waterfall", **place)
     ),
     "mount-point": lambda **place: (
         MOUNTED.response(np.arange(600, 3001, 100)).at((0, 0.3, 0)).plot(kind="map", **place)

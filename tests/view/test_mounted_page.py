@@ -422,7 +422,7 @@ def test_errors_name_what_is_wrong(open_engine: Open, tmp_path: Path) -> None:
             CAR.save_html(**{"path": tmp_path / "car.html", **wrong})
     base = cp.Subframe(cp.RigidBody(100, (0, -0.1, 0.2), (9, 12, 6)), MOUNTS)
     with pytest.raises(cp.InputError, match=r"^support = a subframe: counts in response"):
-        CAR.on(base).save_html(tmp_path / "car.html")
+        CAR.with_support(base).save_html(tmp_path / "car.html")
     track = cp.InertiaTrack(1.5e5, 10.0, 0.3)
     hydraulic = CAR.replace(mounts=[MOUNTS[0].replace(track=track), *MOUNTS[1:]])
     with pytest.raises(cp.InputError, match=r"^frequency = None"):

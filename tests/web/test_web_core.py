@@ -385,7 +385,7 @@ def test_modes_are_the_librarys(ask: Ask, tmp_path: Path) -> None:
     modes = powertrain.modes()
     assert np.allclose(found["modes"]["frequency"], modes.frequency, rtol=1e-10)
     raft = cp.Subframe(body.replace(mass=300.0), [m.replace(stiffness=5e5) for m in mounts])
-    soft = powertrain.on(raft)
+    soft = powertrain.with_support(raft)
     soft.save(tmp_path / "soft.toml")
     text = (tmp_path / "soft.toml").read_text("utf-8")
     (found,) = results(ask, [("mounts", {"engine": text})])
@@ -458,7 +458,9 @@ def doubtful_powertrain(seed: int) -> cp.Powertrain:
 
     powertrain = cp.Powertrain(doubtful_engine(seed), body(), [mount("left"), mount("right's")])
     raft = [mount("below")]
-    return powertrain.on(cp.Subframe(body(), raft)) if chance.random() < 0.5 else powertrain
+    return (
+        powertrain.with_support(cp.Subframe(body(), raft)) if chance.random() < 0.5 else powertrain
+    )
 
 
 def test_what_is_warned_of_is_the_librarys(ask: Ask, tmp_path: Path) -> None:

@@ -439,7 +439,9 @@ def test_an_engine_on_mounts(open_workbench: Open, tmp_path: Path, on: str) -> N
     car = cp.Powertrain(i4, body, mounts)
     if on == "subframe":
         raft = cp.RigidBody(mass=90, cg=(0, -0.2, 0.2), inertia=(6, 7, 5))
-        car = car.on(cp.Subframe(raft, [mount.replace(stiffness=5e5) for mount in mounts]))
+        car = car.with_support(
+            cp.Subframe(raft, [mount.replace(stiffness=5e5) for mount in mounts])
+        )
     car.save(tmp_path / "car.toml")
     page = open_workbench()
     take_file(page, tmp_path / "car.toml")

@@ -86,13 +86,13 @@ class Balance(ByOrder[float]):
     """The engine."""
     rpm: float
     """Crank speed, rpm."""
-    request: Request
+    _request: Request
     """The options of the balance, checked."""
-    within: tuple[ByOrder, tuple[int, ...]] | None = None
+    _within: tuple[ByOrder, tuple[int, ...]] | None = None
     """Sweep, and place in it, whose arrays it reads; None where it was computed for itself."""
 
     def __post_init__(self) -> None:
-        request = check_request(self.request, "Engine.balance")
+        request = check_request(self._request, "Engine.balance")
         self.__dict__["_core"] = (
             _core.balance(
                 engine_core(self.engine),
@@ -103,14 +103,14 @@ class Balance(ByOrder[float]):
                 request.pairs,
                 request.torque,
             )
-            if self.within is None
-            else self.within[0]
+            if self._within is None
+            else self._within[0]
         )
 
     @property
     def fired(self) -> bool:
         """True if gas pressure is counted."""
-        return self.within[0].fired if self.within is not None else self.engine.fired
+        return self._within[0].fired if self._within is not None else self.engine.fired
 
     @property
     def error_bound(self) -> Mapping[str, float]:
@@ -119,19 +119,19 @@ class Balance(ByOrder[float]):
         It covers the orders in ``omitted`` and all above them; zero where orders were given.
         Rounding is not included: sums that vanish to within ``zero_bound`` are zero.
         """
-        if self.within is not None:
-            return self.within[0].error_bound
-        return self.request.bounds(self.__dict__["_core"].error_bound)
+        if self._within is not None:
+            return self._within[0].error_bound
+        return self._request.bounds(self.__dict__["_core"].error_bound)
 
     @property
     def causes(self) -> tuple[str, ...]:
         """Causes of the quantities by name: ``inertia``, ``gas`` and those of further loads."""
-        return super().causes if self.within is None else self.within[0].causes
+        return super().causes if self._within is None else self._within[0].causes
 
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        plane = self.request.reference_z
+        plane = self._request.reference_z
         return self.engine.reference_z if plane is None else plane
 
     @property
@@ -145,14 +145,14 @@ class Balance(ByOrder[float]):
 
     def _with_request(self, request: Request) -> Self:
         """Return the same balance by another request."""
-        within = self.within
+        within = self._within
         if within is not None:
             within = (within[0]._with_request(request), within[1])
         return type(self)(self.engine, self.rpm, request, within)
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        self.request.check(quantity, self)
+        self._request.check(quantity, self)
         whole, _, part = quantity.partition(".")
         order = one_order(order)
         if part not in ("", "inertia", "gas"):
@@ -161,9 +161,9 @@ class Balance(ByOrder[float]):
         bare = kind_of(whole).planar or not self.fired or part == "inertia"
         if order % 1 and bare and not engine.loads and rotating.repeat_in_a_turn(engine._core):
             return True
-        if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):
+        if self._request.pairs is not None or (whole == "torque" and any(self._request.aside)):
             return False
-        core, plane = engine_core(engine), self.request.reference_z
+        core, plane = engine_core(engine), self._request.reference_z
         vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
         if whole == "crank_torque" and any(ratio < 0 for _, _, ratio in core.cranks[0]):
             return False  # cranks of opposite senses exert on the block what adds up on the crank
@@ -173,7 +173,7 @@ class Balance(ByOrder[float]):
         return bool(vanishes[at.get(whole, parts[part])].all())
 
     def _read_order(self, order: Order, quantity: str, what: str) -> Any:  # noqa: ANN401 - as read
-        if what == "peak" and self.within is None and not any(self.request.aside):
+        if what == "peak" and self._within is None and not any(self._request.aside):
             alone: _core.Balance | None = self.__dict__["_core"].alone(one_order(order))
             if alone is not None:  # quicker than the peaks of all orders
                 planar = kind_of(quantity).planar
@@ -182,20 +182,20 @@ class Balance(ByOrder[float]):
         return super()._read_order(order, quantity, what)
 
     def _at_order(self, order: Order) -> ByOrder[float]:
-        core = None if self.within is not None else self.__dict__["_core"].alone(order)
+        core = None if self._within is not None else self.__dict__["_core"].alone(order)
         if core is None or order in self._kept:
             return super()._at_order(order)
         # What was evaluated as orders were chosen is not computed again.
         alone = object.__new__(type(self))
-        request = self.request.at_orders((order,))
-        own = {"engine": self.engine, "rpm": self.rpm, "request": request, "within": None}
+        request = self._request.at_orders((order,))
+        own = {"engine": self.engine, "rpm": self.rpm, "_request": request, "_within": None}
         alone.__dict__.update(own, _core=core)
         return self._kept.setdefault(order, alone)  # type: ignore[no-any-return]
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
-        if self.within is None:
+        if self._within is None:
             return super()._about_point(quantity, what)
-        whole, at = self.within
+        whole, at = self._within
         part: NDArray[Any] = whole.read(quantity, what)[at]
         return part
 
@@ -218,7 +218,7 @@ class Balance(ByOrder[float]):
     def _repr_html_(self) -> str | None:
         """Return the table and, under it, what matters most in words."""
         table = super()._repr_html_()
-        if self.request.pairs is not None:
+        if self._request.pairs is not None:
             return table
         with suppressed():  # Warned of where the balance was made.
             explanation = self.engine.replace(reference_z=self.reference_z).explain(self.rpm)
@@ -227,7 +227,7 @@ class Balance(ByOrder[float]):
     @property
     def table(self) -> Table:
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
-        names = [name for name in self.request.quantities if name != "crank_torque"]
+        names = [name for name in self._request.quantities if name != "crank_torque"]
         shown, left_out = self._shown_orders(*names)
         mean = ("mean",) if self._has_means else ()
         columns = [Column("order", (*mean, *(self.orders[k] for k in shown), ALL))]
@@ -249,7 +249,7 @@ class Balance(ByOrder[float]):
                 Column(symbol, (*means, *values), kind.unit, least=least)
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
-        which = " of the orders given" if self.request.orders is not None else ""
+        which = " of the orders given" if self._request.orders is not None else ""
         title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{which}"
         notes = [labels.not_shown(left_out)]
         if "torque" in names:
@@ -259,7 +259,7 @@ class Balance(ByOrder[float]):
 
     def _roll_axis(self) -> str:
         """Return about which axis the roll torque is, where there are several to choose from."""
-        x, y = self.request.aside
+        x, y = self._request.aside
         if x or y:
             return f"|M_z| is about the axis at x = {x:g} m, y = {y:g} m."
         about = labels.about_axis(engine_core(self.engine).cranks[0])

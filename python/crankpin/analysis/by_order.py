@@ -63,7 +63,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
 
         Empty without torque: gas pressure makes no force and no moment.
         """
-        return self.request.loads_counted(labels.loads_of(self._engines, self._titles))
+        return self._request.loads_counted(labels.loads_of(self._engines, self._titles))
 
     @property
     def _titles(self) -> tuple[str, ...]:
@@ -73,7 +73,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
     @property
     def spectrum(self) -> Spectrum | None:
         """Spectrum used in place of the slider-crank's harmonics, kg·m, or None."""
-        return self.request.spectrum
+        return self._request.spectrum
 
     @property
     def total(self) -> OrderBalance[Value]:
@@ -123,7 +123,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         """
         inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
-        request = self.request.about(name, z if point is None else point)
+        request = self._request.about(name, z if point is None else point)
         for engine in self._engines:
             checks.place(engine_core(engine), name, request.reference_z)
             checks.place(engine_core(engine), name, *request.aside, middle=0.0)
@@ -143,7 +143,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; roll torque about a point beside the crank from that about its axis."""
-        x, y = self.request.aside
+        x, y = self._request.aside
         whole, point, part = quantity.partition(".")
         if whole != "torque" or what == "cycle_mean" or (x, y) == (0.0, 0.0) or part == "gas":
             return self._about_axis(quantity, what)
@@ -167,7 +167,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         """Return the same result of one order."""
         order = one_order(order)
         one: ByOrder[Value] = self._once(
-            order, lambda: self._with_request(self.request.at_orders((order,)))
+            order, lambda: self._with_request(self._request.at_orders((order,)))
         )
         return one
 
@@ -185,7 +185,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         wanted = inputs.half_orders(orders)
         if wanted is None:
             raise inputs.rejected("orders", orders, "give orders, such as (1, 2)")
-        return self._with_request(self.request.at_orders(tuple(wanted)))
+        return self._with_request(self._request.at_orders(tuple(wanted)))
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
@@ -207,7 +207,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
             The quantities that are shown.
         """
         places = tuple(range(len(self.orders)))
-        if self.request.orders is not None:
+        if self._request.orders is not None:
             return places, ()
         swept = tuple(range(len(self.dims)))
         kept = np.zeros(len(places), dtype=bool)
@@ -221,7 +221,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
 
     def _least_shown(self, peaks: NDArray[np.float64]) -> float:
         """Return the least peak that tables write as a number, of a quantity with these."""
-        chosen = self.request.orders is None
+        chosen = self._request.orders is None
         return labels.NEGLIGIBLE * float(peaks.max(initial=0.0)) if chosen else 0.0
 
     def _table_of(self, quantity: Quantity) -> Table:
@@ -369,7 +369,7 @@ class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Gen
 
     def _each(self) -> Iterator[Quantity]:
         """Yield the quantities, and their parts where more than inertia makes them."""
-        for name in self.result.request.quantities:
+        for name in self.result._request.quantities:
             whole: Quantity = getattr(self, name)
             yield whole
             yield from map(whole.part, whole.parts)
@@ -382,5 +382,5 @@ class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Gen
     def _brief(self) -> str:
         if not self.result.dims:
             return ""
-        lines = (f"  {getattr(self, name)!r}" for name in self.result.request.quantities)
+        lines = (f"  {getattr(self, name)!r}" for name in self.result._request.quantities)
         return "\n".join([f"<OrderBalance of {self._which}>", *lines])

@@ -210,7 +210,7 @@ class Comparison(Tabled):
         """Table that is shown: the peak of each quantity and order before and after, and of all."""
         texts: list[tuple[str, Order | str]] = []
         rows = []
-        for name in self.before.request.quantities:
+        for name in self.before._request.quantities:
             if name == "crank_torque":
                 continue
             kind = QUANTITIES[name]
@@ -240,7 +240,7 @@ class Comparison(Tabled):
     def loads_counted(self) -> str:
         """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
         gas = labels.loads_of([self.before.engine, self.after.engine], ["before", "after"])
-        return self.before.request.loads_counted(gas)
+        return self.before._request.loads_counted(gas)
 
     @property
     def names(self) -> tuple[str, str]:

@@ -37,7 +37,7 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
 
     About the same point, and of the same orders; a cylinder's rotating mass counts with it.
     """
-    engine, request = whole.engine, whole.request
+    engine, request = whole.engine, whole._request
     request.check(quantity)
     terms = _core.terms(
         engine_core(engine),

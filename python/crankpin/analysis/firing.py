@@ -44,7 +44,7 @@ class Firing(Tabled):
 
     Intervals of angles that are rational parts of a turn are exact, and so is ``even``.
 
-    Made by :meth:`Engine.firing`, :meth:`Engine.firings` and :meth:`Engine.firing_orders`.
+    Made by :meth:`Engine.firing`, :meth:`Engine.firing_schedules` and :meth:`Engine.firing_orders`.
 
     Examples
     --------
@@ -337,7 +337,7 @@ def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: in
 def firings(
     engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None
 ) -> tuple[Firing, ...]:
-    """Return every way to fire in an order; see :meth:`Engine.firings`."""
+    """Return every way to fire in an order; see :meth:`Engine.firing_schedules`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
     return tuple(
         Firing._of(each, engine) for each in _core.Firing.all_named(engine._core, text, count)

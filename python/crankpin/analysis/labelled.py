@@ -429,7 +429,7 @@ class Shaking(ShakingQuantities[Element, Values, Value], Labelled, Generic[Eleme
     if TYPE_CHECKING:
 
         @property
-        def request(self) -> Request:
+        def _request(self) -> Request:
             """The options of the result, checked."""
 
     @property
@@ -444,19 +444,19 @@ class Shaking(ShakingQuantities[Element, Values, Value], Labelled, Generic[Eleme
 
     @property
     def _names(self) -> tuple[str, ...]:
-        return self.request.named((), self.causes)
+        return self._request.named((), self.causes)
 
     def _check(self, quantity: str) -> None:
-        self.request.check(quantity, self)
+        self._request.check(quantity, self)
 
     def _parts(self, quantity: str) -> tuple[str, ...]:
         return parts_of(quantity, self.causes)
 
     def _named_parts(self, quantity: str) -> tuple[str, ...]:
-        return self.request.parts(quantity, self.causes)
+        return self._request.parts(quantity, self.causes)
 
     def _loads_of(self, quantity: str) -> str:
-        if self.request.pairs is not None or not kind_of(quantity).planar:
+        if self._request.pairs is not None or not kind_of(quantity).planar:
             return self.loads_counted
         return labels.without_gas(self.loads_counted)
 

@@ -98,12 +98,12 @@ class Waveform(OverAngle[float]):
     """Crank angles, degrees: (n_theta,)."""
     summed: bool
     """True if a sum of orders was requested, False for exact kinematics."""
-    request: Request
+    _request: Request
     """The options of the waveform, checked."""
 
     def __post_init__(self) -> None:
-        check_request(self.request, "Engine.waveform")
-        request = self.request
+        check_request(self._request, "Engine.waveform")
+        request = self._request
         theta = inputs.copied(self.theta_deg)
         (planar, torques), parts, balance = _core.waveform(
             engine_core(self.engine),
@@ -156,8 +156,8 @@ class Waveform(OverAngle[float]):
     def error_bound(self) -> Mapping[str, float]:
         """Quantity → upper bound on what the omitted orders add, N or N·m; zero if exact."""
         if self._summed is None:
-            return self.request.bounds((0.0, 0.0, 0.0))
-        return self.request.bounds(self._summed.error_bound)
+            return self._request.bounds((0.0, 0.0, 0.0))
+        return self._request.bounds(self._summed.error_bound)
 
     @property
     def fired(self) -> bool:
@@ -167,7 +167,7 @@ class Waveform(OverAngle[float]):
     @property
     def loads_counted(self) -> str:
         """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
-        return self.request.loads_counted(self.engine.loads_counted)
+        return self._request.loads_counted(self.engine.loads_counted)
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         by_name: dict[str, NDArray[np.float64]] = self.__dict__["_by_name"]
@@ -186,7 +186,7 @@ class Waveform(OverAngle[float]):
     def table(self) -> Table:
         """Table that is shown: least and largest value of each component, and where."""
         rows = []
-        for name in self.request.quantities:
+        for name in self._request.quantities:
             kind = QUANTITIES[name]
             values = self.read(name).reshape(-1, len(kind.components))
             for component, column in zip(kind.components, values.T, strict=True):

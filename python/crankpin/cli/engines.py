@@ -47,7 +47,7 @@ def _firing(given: Given) -> Shown:
         if given.text("--plot") is not None:
             raise rejected("--plot", given.text("--plot"), "needs --firing-order")
         return _firing_orders(engine, strokes, csv=given.text("--csv"))
-    ways = engine.firings(given.text("--firing-order"), strokes=strokes)
+    ways = engine.firing_schedules(given.text("--firing-order"), strokes=strokes)
     best = engine.firing(given.text("--firing-order"), strokes=strokes)
     others = "".join(f"  {way.intervals_text}\n" for way in ways[1:])
     note = f"The same order in other turns, intervals in degrees:\n{others}" if others else ""

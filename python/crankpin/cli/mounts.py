@@ -97,7 +97,7 @@ def _powertrain(given: Given) -> Powertrain:
 def _mounts(given: Given) -> Shown:
     powertrain = _powertrain(given)
     if given.text("--misfire") is not None:
-        powertrain = powertrain.without(given.whole("--misfire"))
+        powertrain = powertrain.with_misfire(given.whole("--misfire"))
     rpm: Any = given.range("--rpm", "rpm")
     page = given.text("--html")
     if page is not None:

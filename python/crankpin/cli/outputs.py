@@ -97,7 +97,7 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
     *names
         The quantities that it shows.
     """
-    if len(table) <= SHOWN or balance.request.orders is not None:
+    if len(table) <= SHOWN or balance._request.orders is not None:
         return table
     peaks = [balance.read(name, "peak") for name in names]
     small = {

@@ -59,7 +59,7 @@ def _balance(given: Given) -> Shown:
         table, note = _with_phases(balance), PHASES + note
     if not given.text("--csv"):
         table = in_short(
-            table, balance, *(n for n in balance.request.quantities if n != "crank_torque")
+            table, balance, *(n for n in balance._request.quantities if n != "crank_torque")
         )
     return Shown(only(table), balance, {"quantity": given.quantity([engine])}, note=note)
 
@@ -67,7 +67,7 @@ def _balance(given: Given) -> Shown:
 def _with_phases(balance: Balance) -> Table:
     """Return the table of a balance with the phase of each component beside its peak."""
     keys, *peaks = balance.table.columns
-    names = [name for name in balance.request.quantities if name != "crank_torque"]
+    names = [name for name in balance._request.quantities if name != "crank_torque"]
     parts = [np.reshape(balance.read(name, "values"), (len(balance.orders), -1)) for name in names]
     phasors = dict(zip(balance.orders, np.concatenate(parts, axis=1), strict=True))
     columns = [keys]

@@ -285,7 +285,7 @@ class Engine(Framed, Builders):
         return firing.firing(self, firing_order, strokes)
 
     @documented(firing)
-    def firings(
+    def firing_schedules(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> tuple[Firing, ...]:
         """Return every schedule of firing in this order, the most even first.
@@ -306,7 +306,7 @@ class Engine(Framed, Builders):
         Examples
         --------
         >>> import crankpin as cp
-        >>> for f in cp.Engine.preset("i2-180").firings("1-2"):
+        >>> for f in cp.Engine.preset("i2-180").firing_schedules("1-2"):
         ...     print(f)
         <Firing 4-stroke 1-2, 180-540°>
         <Firing 4-stroke 1-2, 540-180°>

@@ -84,7 +84,7 @@ def spectrum(
         else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
     )
     orders, note = np.array(result.orders, dtype=np.float64), ""
-    orders_given = result.request.orders is not None
+    orders_given = result._request.orders is not None
     if not orders_given:
         # Gas torque declines slowly: the few orders that can be seen would have no room.
         least = labels.MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE

@@ -137,8 +137,8 @@ def _balancers(
     alone = not count_series(ax)
     room = _room(ax)
     most = max(1, min(MOST_SETS, int(room / SMALLEST)) - len(names_there(ax)))
-    shown = result.front[:most]
-    left_out = len(result.front) - len(shown)
+    shown = result.pareto_front[:most]
+    left_out = len(result.pareto_front) - len(shown)
     set_title(
         ax,
         labels.name_of(result.engine),
@@ -245,10 +245,10 @@ def _bob_weight(
     ax = axes_or_new(ax)
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
-    lines = result.straight(name)
+    lines = result.straight_line_factors(name)
     end = max(1.0, result.factor, *(factor for factor, _ in lines))
     # Both half axes have corners at these factors.
-    corners = [factor for factor, _ in lines] + [result.least(name) or 0.0, result.factor]
+    corners = [factor for factor, _ in lines] + [result.optimal_factor(name) or 0.0, result.factor]
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
     longest, shortest = result.half_axes(name, factors)
     own = result.half_axes(name, result.factor)

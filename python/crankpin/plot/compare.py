@@ -69,7 +69,7 @@ def _comparison(
         The axes; without ``ax`` an array: (1, 2), or (2, 1) in a narrow figure.
     """
     name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
-    result.before.request.check(name, result.before)
+    result.before._request.check(name, result.before)
     beside = width_for(figure) >= SIDE_BY_SIDE
     shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
     grid = (1, 2) if beside else (2, 1)
@@ -154,7 +154,7 @@ def _curves(ax: Axes, result: Comparison, name: str) -> None:
     cycle = not planar and any(b.fired and b.engine.strokes == 4 for b in both)
     theta = TWO_TURNS if cycle else TWO_TURNS[:361]
     for balance, label in zip(both, result.names, strict=True):
-        waveform = Waveform(balance.engine, balance.rpm, theta, True, balance.request)
+        waveform = Waveform(balance.engine, balance.rpm, theta, True, balance._request)
         if planar:
             picture(waveform, ax, kind="orbit", quantity=name, label=label)
         else:

@@ -95,7 +95,7 @@ def order_map(
     orders = sweep.orders or (1,)  # zero, where nothing shakes
     rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
     peaks = np.stack([row.peaks for row in rows.rows])
-    if sweep.request.orders is None:  # those of a torque may be many more
+    if sweep._request.orders is None:  # those of a torque may be many more
         seen = np.flatnonzero(np.moveaxis(peaks, -2, 0).reshape(len(orders), -1).any(axis=1))
         count = int(seen.max(initial=0)) + 1
         if count < len(orders):

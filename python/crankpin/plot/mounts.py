@@ -236,7 +236,7 @@ def _orders(result: MountResponse, drawn: Drawn, orders: Orders | None) -> tuple
     """Return the orders given, or those that are seen beside the largest, ascending."""
     if orders is not None:
         return tuple(inputs.explicit_half_orders(orders))
-    if result.request.orders is not None:
+    if result._request.orders is not None:
         return result.orders
     largest = np.reshape(drawn.read(None), (-1, len(result.orders))).max(axis=0, initial=0.0)
     kept = largest > SEEN * largest.max(initial=0.0)
@@ -254,7 +254,7 @@ def _cuts(
     """Draw the largest orders over speed, and all together."""
     peaks = {order: drawn.read(order) for order in orders}
     by_size = sorted(orders, key=lambda order: -float(peaks[order].max()))
-    kept = sorted(by_size if result.request.orders is not None else by_size[:MOST_CURVES])
+    kept = sorted(by_size if result._request.orders is not None else by_size[:MOST_CURVES])
     rpm = np.asarray(result.rpm)
     along = np.argsort(rpm, kind="stable")
     total = drawn.read(ALL)
@@ -274,7 +274,7 @@ def _cuts(
         note_zero(ax)
     add_legend(ax)
     rest = len(result.orders) - len(kept)
-    is_cut = rest and len(kept) == MOST_CURVES and result.request.orders is None
+    is_cut = rest and len(kept) == MOST_CURVES and result._request.orders is None
     return f"the {len(kept)} largest of {len(result.orders)} orders" if is_cut else ""
 
 

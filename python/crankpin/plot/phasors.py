@@ -82,9 +82,9 @@ def phasors(
     if ax is not None:
         raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
     kind = drawn_quantity(quantity, nonzero_in(result))
-    result.request.check(kind)
+    result._request.check(kind)
     shown = inputs.explicit_half_orders(
-        orders if orders is not None else result.request.orders or ORDERS
+        orders if orders is not None else result._request.orders or ORDERS
     )
     whole = result._at_orders(tuple(shown))
     arms = adding.contributions(whole, kind)

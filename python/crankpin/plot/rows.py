@@ -89,7 +89,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
         return Rows([one(order) for order in chosen], columns, "")
     if len(sweep.orders) == 1:
         return Rows([one(sweep.orders[0])], columns, "")
-    which = " given" if sweep.request.orders is not None else ""
+    which = " given" if sweep._request.orders is not None else ""
     rows = [row(f"all orders{which}", sweep.total)]
     if single:
         return Rows(rows, columns, "")

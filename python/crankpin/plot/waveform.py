@@ -266,7 +266,7 @@ def curves(
     for k, text in enumerate(series_names(drawn, label)):
         ax.plot(result.theta_deg, values[:, k], gid=SERIES, label=text, **styles[k])
     if len(drawn) > 1:
-        whole = Balance(result.engine, result.rpm, result.request.at_orders((1,)))
+        whole = Balance(result.engine, result.rpm, result._request.at_orders((1,)))
         look = {"color": styles[0]["color"], "linewidth": 0.8, "linestyle": ":"}
         text = ", ".join(filter(None, [label, "mean"]))
         ax.axhline(getattr(whole, name).cycle_mean, label=text, gid=MEAN, **look)

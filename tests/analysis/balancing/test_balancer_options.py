@@ -32,7 +32,7 @@ def least(engine: cp.Engine, **targets: float) -> str | None:
     wanted = {f"[{key[1:]}].{key[0]}": value for key, value in targets.items()}
     names = {"f": "force", "m": "moment"}
     target = {f"{k.split('.')[0]}.{names[k.split('.')[1]]}.peak": v for k, v in wanted.items()}
-    found = cp.balancer_options(engine, rpm=RPM, by=list(target), target=target).least
+    found = cp.balancer_options(engine, rpm=RPM, by=list(target), target=target).smallest
     return None if found is None else found.name
 
 
@@ -65,13 +65,13 @@ def test_relative_target() -> None:
     ((by, target),) = half.targets
     assert by == "[2].force.peak"
     assert target == pytest.approx(start / 2)
-    assert half.least is not None
-    assert half.least.name == "shaft +2"
+    assert half.smallest is not None
+    assert half.smallest.name == "shaft +2"
     less = cp.balancer_options(I4, rpm=RPM, by="[2].force.peak", target=0.49, relative=True)
-    assert less.least is not None
-    assert less.least.name == "shafts −2, +2"
+    assert less.smallest is not None
+    assert less.smallest.name == "shafts −2, +2"
     absolute = cp.balancer_options(I4, rpm=RPM, by="[2].force.peak", target=float(start) * 0.51)
-    assert absolute.least == half.least
+    assert absolute.smallest == half.smallest
 
 
 def test_rounding_does_not_miss_a_target() -> None:
@@ -86,10 +86,10 @@ def test_targets_of_several_objectives_must_all_be_reached() -> None:
     both = {"[1].moment.peak": 0.0, "[2].moment.peak": 0.0}
     options = cp.balancer_options(V6_90, rpm=RPM, by="total.force.peak", target=both)
     assert options.by == ("total.force.peak", "[1].moment.peak", "[2].moment.peak")
-    assert options.least is not None
-    assert options.least.name == "counterweights + shafts −1, −2, +2"
+    assert options.smallest is not None
+    assert options.smallest.name == "counterweights + shafts −1, −2, +2"
     assert [each.reaches for each in options].count(True) == 1
-    assert options.fitted == options.least.fitted
+    assert options.fitted == options.smallest.fitted
     after = options.fitted.balance(RPM, orders=[1, 2])
     assert after.moment.peak.max() <= 1e-9 * V6_90.balance(RPM)[1].moment.peak
 
@@ -97,7 +97,7 @@ def test_targets_of_several_objectives_must_all_be_reached() -> None:
 def test_engine_is_undefined_without_a_set_that_reaches_the_target() -> None:
     for target, words in ((None, "no target was given"), ({"[4].force.peak": 0.0}, "no set")):
         options = cp.balancer_options(I4, rpm=RPM, target=target)
-        assert options.least is None
+        assert options.smallest is None
         for name in ("fitted", "hardware", "residual"):
             assert not hasattr(options, name)
             with pytest.raises(cp.InputError, match=words):
@@ -218,15 +218,15 @@ def test_front(name: str) -> None:
     def beats(one: np.ndarray, other: np.ndarray) -> bool:
         return bool((one <= other + slack).all() and (one < other - slack).any())
 
-    front = [each.name for each in options.front]
+    front = [each.name for each in options.pareto_front]
     for each, row in rows.items():
         assert (each in front) != any(beats(rows[other], row) for other in front), each
     assert 1 < len(front) < len(options)
 
 
 def test_front_has_the_least_that_reaches_the_target() -> None:
-    assert OPTIONS.least in OPTIONS.front
-    assert OPTIONS.least == next(each for each in OPTIONS if each.reaches)
+    assert OPTIONS.smallest in OPTIONS.pareto_front
+    assert OPTIONS.smallest == next(each for each in OPTIONS if each.reaches)
 
 
 # --- the object -----------------------------------------------------------------------------------
@@ -249,12 +249,12 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     words = {True: "reached", False: "missed"}
     expected = [
         (each.name, str(len(each.shafts)), words[each.reaches], each.unbalance, *each.values)
-        for each in OPTIONS.front
+        for each in OPTIONS.pareto_front
     ]
     assert list(zip(*(column.values for column in table.columns), strict=True)) == expected
     last = repr(OPTIONS).splitlines()[-1]
     assert last == "Target: order-1 rocking moment ≤ 0 N·m; least counterweights + shaft −1."
-    assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
+    assert f"{len(OPTIONS.pareto_front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
     assert html_of(OPTIONS).startswith("<table>")
     assert "\n" not in repr(OPTIONS[0])
     assert "no set reaches it" in repr(
@@ -266,11 +266,11 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
 def test_the_long_form_has_all_sets() -> None:
     table = OPTIONS.tidy()
     assert list(table) == [
-        "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
+        "name", "n_shafts", "unbalance", "on_pareto_front", "reaches", "objective", "value", "unit",
     ]  # fmt: skip
     assert list(table["value"].values) == [value for each in OPTIONS for value in each.values]
     assert list(table["name"].values) == [each.name for each in OPTIONS for _ in range(2)]
-    assert table.to_pandas()["on_front"].sum() == 2 * len(OPTIONS.front)
+    assert table.to_pandas()["on_pareto_front"].sum() == 2 * len(OPTIONS.pareto_front)
 
 
 @pytest.mark.parametrize(

@@ -177,7 +177,7 @@ def test_what_cancels_is_zero_and_not_its_rounding(seed: int) -> None:
     for quantity in ("force", "moment"):
         vector, axes = getattr(bob.residual[1], quantity), bob.half_axes(quantity, 0.5)
         assert [each == 0.0 for each in axes] == [vector.peak == 0.0, vector.minor == 0.0]
-        for factor, _ in bob.straight(quantity):
+        for factor, _ in bob.straight_line_factors(quantity):
             assert bob.half_axes(quantity, factor)[1] == 0.0
 
 
@@ -190,15 +190,15 @@ def test_half_axes_are_those_of_the_theorem(name: str) -> None:
         f = abs(complex(getattr(before, quantity).forward))
         b = abs(complex(getattr(before, quantity).backward))
         if f == 0.0:
-            assert bob.least(quantity) is None
-            assert bob.straight(quantity) == ()
+            assert bob.optimal_factor(quantity) is None
+            assert bob.straight_line_factors(quantity) == ()
             continue
         factors = np.linspace(0.0, 1.2, 13)
         longest, shortest = bob.half_axes(quantity, factors)
         np.testing.assert_allclose(longest, np.abs(1 - 2 * factors) * f + b, atol=1e-14)
         np.testing.assert_allclose(shortest, np.abs(1 - 2 * factors) * f - b, atol=1e-14)
-        assert bob.least(quantity) == pytest.approx(0.5, abs=1e-15)
-        lines = bob.straight(quantity)
+        assert bob.optimal_factor(quantity) == pytest.approx(0.5, abs=1e-15)
+        lines = bob.straight_line_factors(quantity)
         assert [factor for factor, _ in lines] == pytest.approx(
             [(1 - b / f) / 2, (1 + b / f) / 2], abs=1e-12
         )
@@ -217,11 +217,11 @@ def test_half_axes_are_those_of_the_theorem(name: str) -> None:
 
 def test_a_single_is_straight_at_nothing_and_at_all() -> None:
     single = cp.bob_weight(preset("single"))
-    assert single.straight("force") == ((0.0, 90.0), (1.0, 0.0))
+    assert single.straight_line_factors("force") == ((0.0, 90.0), (1.0, 0.0))
     assert single.half_axes("force", [0, 1])[0].tolist() == [1.0, 1.0]
     assert single.half_axes("force", 0.5) == (0.5, -0.5)
     assert single.residual[1].force.tilt_deg == 0.0
-    assert single.straight("moment") == ()
+    assert single.straight_line_factors("moment") == ()
 
 
 @settings(max_examples=30, deadline=None)
@@ -261,13 +261,13 @@ def test_pin_offsets_move_the_best_factor() -> None:
     engine = cp.Engine.inline(UNIT.replace(pin_offset=0.4), throws_deg=[0], spacing=1.0)
     a1 = complex(engine.cylinders[0].harmonics([1])[0])
     bob = cp.bob_weight(engine)
-    assert bob.least("force") == pytest.approx(0.5)
+    assert bob.optimal_factor("force") == pytest.approx(0.5)
     assert bob.half_axes("force", 0.5)[0] == pytest.approx(abs(a1) / 2 + abs(a1.imag) / 2)
     vr6 = cp.bob_weight(cp.Engine.preset("vr6"))
     factors = np.linspace(0, 1, 2001)
     best = factors[vr6.half_axes("moment", factors)[0].argmin()]
-    assert vr6.least("moment") == pytest.approx(best, abs=5e-4)
-    for factor, _ in vr6.straight("moment"):
+    assert vr6.optimal_factor("moment") == pytest.approx(best, abs=5e-4)
+    for factor, _ in vr6.straight_line_factors("moment"):
         assert vr6.half_axes("moment", factor)[1] == pytest.approx(0, abs=1e-15)
 
 
@@ -277,13 +277,16 @@ def test_the_least_factor_is_one_that_can_be_given(angle: float, least: float) -
     engine = preset("single")
     shaft = cp.Shaft(1, [cp.Unbalance(50.0, 0.0, float(engine.pin_deg[0]) + angle)])
     bob = cp.bob_weight(engine.with_shafts([shaft]))
-    assert bob.least("force") == least
+    assert bob.optimal_factor("force") == least
     assert cp.bob_weight(bob.engine, least).factor == least
 
 
 def test_straight_lines_point_above_minus_90_degrees() -> None:
     vee = cp.Engine.vee(UNIT, bank_angle_deg=35, throws_deg=[0, 210], spacing=1.0)
-    assert [direction for _, direction in cp.bob_weight(vee).straight("force")] == [90.0, 0.0]
+    assert [direction for _, direction in cp.bob_weight(vee).straight_line_factors("force")] == [
+        90.0,
+        0.0,
+    ]
 
 
 # --- what it is ----------------------------------------------------------------------------------

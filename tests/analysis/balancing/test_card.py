@@ -54,12 +54,15 @@ def test_factors_that_are_rounding_apart_are_one(seed: int) -> None:
         cp.Cylinder(0.04, 0.14, 0.5), bank_angle_deg=angle, throws_deg=[0.0], spacing=0.1
     )
     bob = cp.bob_weight(twin)
-    own = [0.5, *(factor + rng.uniform(0.0, 1e-13) for factor, _ in bob.straight("force"))]
+    own = [
+        0.5,
+        *(factor + rng.uniform(0.0, 1e-13) for factor, _ in bob.straight_line_factors("force")),
+    ]
     for frame, name in ((bob.card(own).frames["residual"], "factor"), (bob.frames["factors"], "")):
         listed = np.array([float(each) for each in frame.columns[0].values])
         scale = 100.0 if name else 1.0
         assert (np.diff(listed) > 1e-9 * scale).all()
-        for factor, _ in bob.straight("force"):
+        for factor, _ in bob.straight_line_factors("force"):
             at = int(abs(listed - scale * factor).argmin())
             words = frame.columns[1].values[at]
             assert words.count("straight line of the force") + words.count("force along") == 1

@@ -142,7 +142,7 @@ def test_designs_fire_at_the_intervals_asked_for(
     for each in found:
         engine = each.engine
         assert engine.strokes == sum(intervals) / 180
-        firings = engine.firings(engine.firing_order)
+        firings = engine.firing_schedules(engine.firing_order)
         assert any(list(firing.intervals_deg) in turned for firing in firings), engine.firing_order
 
 

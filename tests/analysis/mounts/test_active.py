@@ -158,7 +158,7 @@ def test_receivers_are_points_names_and_motions() -> None:
     rail = cp.Receptance(
         [(P.names[0], "y")], (frequency, np.full((2, 1, 1), 1e-7 - 1e-9j)), {"rail": [transfer] * 2}
     )
-    r = P.on(rail).response(3000.0, orders=[2])
+    r = P.with_support(rail).response(3000.0, orders=[2])
     c = r.cancel(HEAD, "rail")
     # One force at one coordinate moves the rail: it is still.
     assert c.residual[0] < 1e-9
@@ -167,7 +167,7 @@ def test_receivers_are_points_names_and_motions() -> None:
     up = r.cancel(HEAD, {"up": ("rail", (0, 1, 0))})
     assert up.forces == pytest.approx(c.forces)
     raft = cp.Subframe(BODY.replace(mass=300.0), [m.replace(stiffness=1e6) for m in FOUR])
-    soft = P.on(raft).response(3000.0, orders=[2])
+    soft = P.with_support(raft).response(3000.0, orders=[2])
     point = soft.at((0.1, -0.2, 0.1), on="support")
     still = soft.cancel(HEAD, [(point, (0, 1, 0))])
     assert still.residual[0] < 1e-9
@@ -197,7 +197,7 @@ def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> No
     before = p.response(rpm, orders=[1, 2, 4])
     c = before.cancel(actuators, points, orders=[1, 2])
     r = c.response
-    assert (c.used <= 1.0 + 1e-9).all()
+    assert (c.utilisation <= 1.0 + 1e-9).all()
     assert (c.forces[:, 2] == 0.0).all()
     assert np.array_equal(r.motion[:, 2], before.motion[:, 2])
     assert (c.residual[~np.isnan(c.residual)] <= 1.0 + 1e-12).all()

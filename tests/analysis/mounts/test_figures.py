@@ -164,7 +164,7 @@ def test_roll_of_a_half_order_at_idle() -> None:
         cp.Actuator(name, (CG[0] + x, CG[1], CG[2]), (0, 1, 0))
         for name, x in (("up", 0.5), ("down", -0.5))
     )
-    request = PLAIN.response(800, orders=[0.5]).request
+    request = PLAIN.response(800, orders=[0.5])._request
     forces = np.array([[[60.0, -60.0]]], complex)
     speeds = np.array([800.0])
     r = cp.results.DrivenResponse(PLAIN, speeds, request, pair, forces, engine_runs=False)
@@ -212,7 +212,7 @@ def test_a_dead_cylinder_brings_half_orders() -> None:
     p = PLAIN.replace(engine=fired)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        whole, dead = p.response(850), p.without(3).response(850)
+        whole, dead = p.response(850), p.with_misfire(3).response(850)
     assert 0.5 not in whole
     assert 0.5 in dead
     assert whole[0.5].body_force.peak == pytest.approx(0.0, abs=1e-9 * whole.body_force.peak.max())

@@ -201,7 +201,7 @@ def test_what_is_not_reached_is_said() -> None:
 
 
 def test_forces_of_a_dead_cylinder_are_lowered() -> None:
-    dead = P.replace(engine=I4.with_cycle(cp.Cycle.example())).without(3)
+    dead = P.replace(engine=I4.with_cycle(cp.Cycle.example())).with_misfire(3)
     arguments: dict[str, Any] = {
         "vary": {name: ["stiffness"] for name in P.names[:2]},
         "bounds": {"stiffness": (5e4, 5e5)},

@@ -138,12 +138,12 @@ def test_impossible_questions_are_rejected() -> None:
     with pytest.raises(cp.InputError, match='frequency = None: the stiffness of mount "rear"'):
         P.modes()
     with pytest.raises(cp.InputError, match="cylinder = 2: no cylinder fires"):
-        P.without(2)
+        P.with_misfire(2)
     bored = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     fired = P.replace(engine=cp.Engine.preset("single", cylinder=bored).replace(firing_order="1"))
     fired = fired.replace(engine=fired.engine.with_cycle(cp.Cycle.example(), crankcase=9e4))
     with pytest.raises(cp.InputError, match="cylinder = 1: it is the last that fires"):
-        fired.without(1)
+        fired.with_misfire(1)
     with pytest.raises(cp.InputError, match="torque = 'engine'"):
         P.static("engine")
     with pytest.raises(cp.InputError, match="gear_ratio = 0"):

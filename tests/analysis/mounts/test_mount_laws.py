@@ -110,7 +110,7 @@ def moved_by_force(
 ) -> cp.results.DrivenResponse:
     """Return the response to 1 N of order 1 alone."""
     pusher = cp.Actuator("pusher", tuple(at), tuple(along))
-    request = p.response(rpm, orders=[1]).request
+    request = p.response(rpm, orders=[1])._request
     forces = np.ones((len(rpm), 1, 1), complex)
     return cp.results.DrivenResponse(p, rpm, request, (pusher,), forces, engine_runs=False)
 
@@ -130,7 +130,9 @@ def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
     # Actuators make their direction one of length 1.
     block_along, rail_along = (v / np.linalg.norm(v) for v in draw.normal(size=(2, 3)))
     rpm = np.sort(rpm)
-    one = moved_by_force(upper.on(cp.Subframe(below.body, lower)), rpm, block_at, block_along)
+    one = moved_by_force(
+        upper.with_support(cp.Subframe(below.body, lower)), rpm, block_at, block_along
+    )
     there = one.at(rail_at, on="support").displacement.xyz[:, 0] @ rail_along
 
     cg, mass = np.array(upper.body.cg), upper.body.mass * np.eye(6)
@@ -143,7 +145,9 @@ def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
     pairs = [(name, axis) for name in upper.names for axis in "xyz"]
     table = (frequency, (levers @ free @ levers.T).astype(complex))
     hung = cp.Powertrain(upper.engine, below.body, [*upper.mounts, *lower])
-    other = moved_by_force(hung.on(cp.Receptance(pairs, table, transfer)), rpm, rail_at, rail_along)
+    other = moved_by_force(
+        hung.with_support(cp.Receptance(pairs, table, transfer)), rpm, rail_at, rail_along
+    )
     back = other.at("block").displacement.xyz[:, 0] @ block_along
     # Two factorisations of the same dozen of equations, the second one after a subtraction.
     assert back == pytest.approx(there, rel=1e-9)
@@ -188,7 +192,7 @@ def test_power_is_a_frame_whose_columns_balance() -> None:
     np.testing.assert_allclose(put_in[-1], lost[:, -1].sum(), rtol=1e-10)
     assert "passed on" not in frame
     raft = cp.Subframe(p.body, p.mounts)
-    assert "passed on" in p.on(raft).response(rpm[0], orders=[2]).frames["power"]
+    assert "passed on" in p.with_support(raft).response(rpm[0], orders=[2]).frames["power"]
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -31,7 +31,7 @@ def four(stiffness: float, loss: float) -> list[cp.Mount]:
 
 
 FIXED = cp.Powertrain(SINGLE, UPPER, four(1.2e6, 0.1))
-STAGES = FIXED.on(cp.Subframe(LOWER, four(4e5, 0.05)))
+STAGES = FIXED.with_support(cp.Subframe(LOWER, four(4e5, 0.05)))
 RPM = 25.0 * 60.0
 
 
@@ -80,7 +80,10 @@ def as_receptance(receiver: bool = True) -> cp.Receptance:
 
 
 def test_a_receptance_is_the_body_it_was_measured_on() -> None:
-    whole, measured = STAGES.response(RPM), FIXED.on(as_receptance()).response(RPM, orders=[1, 2])
+    whole, measured = (
+        STAGES.response(RPM),
+        FIXED.with_support(as_receptance()).response(RPM, orders=[1, 2]),
+    )
     assert measured[1].body_force.y == near(whole[1].body_force.y, 1e-12)
     rail = measured.at("seat rail")
     expected = whole.at((0, 0, 0), on="support")
@@ -98,7 +101,10 @@ def test_what_does_not_move_is_one_stage(kind: str) -> None:
         table = ([1.0, 500.0], np.zeros((2, 4, 4)))
         still = as_receptance().replace(table=table, receivers=None)
     speeds = [700.0, 2500.0]
-    one, two = FIXED.response(speeds, rtol=1e-3), FIXED.on(still).response(speeds, rtol=1e-3)
+    one, two = (
+        FIXED.response(speeds, rtol=1e-3),
+        FIXED.with_support(still).response(speeds, rtol=1e-3),
+    )
     # The ratio of inertias.
     assert np.abs(two.motion - one.motion).max() <= 1e-8 * np.abs(one.motion).max()
     assert two.body_force.xyz == pytest.approx(one.body_force.xyz, abs=1e-8 * one.load.real.max())
@@ -122,11 +128,11 @@ def test_impossible_supports_are_rejected() -> None:
             measured.replace(**change)
     other = measured.replace(coordinates=[("left", "y"), *measured.coordinates[1:]])
     with pytest.raises(cp.InputError, match=r"coordinates\[0\] = left: is no mount"):
-        FIXED.on(other)
+        FIXED.with_support(other)
     with pytest.raises(cp.InputError, match="support = 3"):
         FIXED.replace(support=3)
     with pytest.raises(cp.InputError, match=r"70\.000000 Hz: order 2 at 2100 rpm, is outside"):
-        FIXED.on(measured).response(2100.0, orders=[2])
+        FIXED.with_support(measured).response(2100.0, orders=[2])
     r = FIXED.response(RPM, orders=[1])
     for wrong in (lambda: r.at((0, 0, 0), on="support"), lambda: r.ground_force):
         with pytest.raises(cp.InputError, match="no subframe carries the mounts"):
@@ -134,14 +140,14 @@ def test_impossible_supports_are_rejected() -> None:
     with pytest.raises(cp.InputError, match="point = 'seat rail': no receptance"):
         r.at("seat rail")
     with pytest.raises(cp.InputError, match="point = 'roof'"):
-        FIXED.on(measured).response(RPM, orders=[1]).at("roof")
+        FIXED.with_support(measured).response(RPM, orders=[1]).at("roof")
 
 
 @pytest.mark.parametrize("support", [STAGES.support, as_receptance()])
 def test_supports_read_back_from_files(
     tmp_path: Path, support: cp.Subframe | cp.Receptance
 ) -> None:
-    p = FIXED.on(support)
+    p = FIXED.with_support(support)
     for name in ("p.toml", "p.json"):
         p.save(tmp_path / name)
         assert cp.Powertrain.load(tmp_path / name) == p
@@ -163,7 +169,7 @@ NEEDED: dict[str, dict[str, Any]] = {
 """Arguments without which a reading cannot be called."""
 REJECTED = {"designs", "design_mounts", "save_html"}
 """Readings of mounts on what does not move alone."""
-NOT_READINGS = {"load", "save", "on", "replace", "without", "view", *dir(Framed)}
+NOT_READINGS = {"load", "save", "with_support", "replace", "with_misfire", "view", *dir(Framed)}
 """Methods that compute no figure; a view is the page of `save_html` in a notebook."""
 
 
@@ -200,7 +206,7 @@ def test_no_reading_leaves_out_what_carries_the_mounts(
     )
 
     def read(support: Any) -> Any:  # noqa: ANN401 - a result
-        return readings()[name](firm.on(support), **NEEDED.get(name, {}))
+        return readings()[name](firm.with_support(support), **NEEDED.get(name, {}))
 
     plain = read(None)
     for support, kind in ((STAGES.support, "subframe"), (measured, "receptance")):
@@ -218,7 +224,7 @@ def test_refusals_are_one_sentence() -> None:
     for name in readings():
         if name not in ("response", "save_html"):
             with pytest.raises(cp.InputError) as error:
-                readings()[name](FIXED.on(as_receptance()), **NEEDED.get(name, {}))
+                readings()[name](FIXED.with_support(as_receptance()), **NEEDED.get(name, {}))
             said.add(str(error.value))
     assert len(said) == 1
     assert "give a subframe, or leave out the support" in said.pop()
@@ -234,7 +240,7 @@ def test_the_worst_force_is_near_one_of_twelve_modes_or_of_none() -> None:
     assert worst.mode_frequency == modes[worst.mode - 1]
     nearest = np.abs(modes - worst.frequency).min()
     assert abs(worst.mode_frequency - worst.frequency) == nearest
-    measured = FIXED.on(as_receptance()).response([RPM], orders=[1]).worst()
+    measured = FIXED.with_support(as_receptance()).response([RPM], orders=[1]).worst()
     assert (measured.mode, measured.mode_frequency) == (None, None)
     assert measured.force == near(STAGES.response([RPM], orders=[1]).worst().force, 1e-12)
 
@@ -289,7 +295,7 @@ def test_twelve_modes_are_eigenvalues_of_both_bodies(seed: int) -> None:
     sag, wind_up = np.linalg.solve(static, loads.T).T
     assert state.sag == pytest.approx(sag[:3], abs=1e-9 * np.abs(sag).max())
     assert state.wind_up_deg == pytest.approx(np.degrees(wind_up[3:6]), rel=1e-6, abs=1e-9)
-    firm = p.on(None).static(-70.0)
+    firm = p.with_support(None).static(-70.0)
     assert state.preload == pytest.approx(firm.preload, abs=1e-7 * np.abs(firm.preload).max())
     weight = 9.80665 * (p.body.mass + p.support.body.mass)  # type: ignore[union-attr]
     assert state.ground_preload[:, 1].sum() == pytest.approx(-weight)
@@ -333,4 +339,4 @@ def random_stages(seed: int) -> cp.Powertrain:
         [cp.Unbalance(0.05, z=0.3, angle_deg=40)]
     )
     p = cp.Powertrain(engine, body(150.0), upper)
-    return p.on(cp.Subframe(body(100.0), mounts(int(draw.integers(3, 6)), 3.0)))
+    return p.with_support(cp.Subframe(body(100.0), mounts(int(draw.integers(3, 6)), 3.0)))

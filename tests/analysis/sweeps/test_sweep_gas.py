@@ -142,11 +142,11 @@ def test_the_speed_of_least_torque_of_an_order_is_that_of_its_phasors() -> None:
     gas, inertia = at.gas.phasor, at.inertia.phasor
     # |G + I·(n/1000)²| is least where the derivative by n² vanishes.
     expected = 1000.0 * np.sqrt(-(inertia * np.conj(gas)).real) / abs(inertia)
-    found = swept.least(swept[2].crank_torque.peak)
+    found = swept.at_minimum(swept[2].crank_torque.peak)
     assert abs(found.rpm - expected) <= 5.0  # half a step of the sweep
     assert found[2].crank_torque.peak == swept[2].crank_torque.peak.min()
     with pytest.raises(cp.InputError, match=r"values have shape \(2,\)"):
-        swept.least([1.0, 2.0])
+        swept.at_minimum([1.0, 2.0])
 
 
 FLAT = cp.CycleMap([1000, 3000], [0.0, 1.0], [[CYCLE, CYCLE], [CYCLE, CYCLE]])

@@ -165,7 +165,7 @@ def test_loads_are_a_dimension_of_everything_that_is_read() -> None:
     assert (s.force.peak == s.force.peak[:, :1]).all()
     assert s.sel(load=0.5).dims == ("rpm",)
     assert (s.sel(load=0.5).torque.phasor == s.torque.phasor[:, 1]).all()
-    least = s.least(s.total.crank_torque.peak)
+    least = s.at_minimum(s.total.crank_torque.peak)
     assert least.total.crank_torque.peak == s.total.crank_torque.peak.min()
     assert s.about(0.5).moment.peak.shape == (2, 3, 3)
     again = cp.sweep(engine("i4"), rpm=[1000, 2000], load=[0, 0.5, 1], cycle=MAP, orders=[1, 2, 4])

@@ -63,7 +63,7 @@ def test_the_best_of_all_arrangements_is_found(engine: cp.Engine) -> None:
     # Sums of a kilogram-metre and less.
     assert match.value == pytest.approx(best, rel=1e-9, abs=1e-15)
     assert remains(match.engines[0]) == pytest.approx(match.value, rel=1e-9, abs=1e-15)
-    assert match.value <= match.as_given
+    assert match.value <= match.initial_value
 
 
 @pytest.mark.parametrize("spare", [0, 1])
@@ -114,7 +114,7 @@ def test_more_than_all_can_be_compared() -> None:
     v12 = cp.Engine.preset("v12-60")
     match = cp.match_parts(v12, masses(14), rods(13))
     assert not match.exact
-    assert match.bound <= match.value < 0.5 * match.as_given
+    assert match.bound <= match.value < 0.5 * match.initial_value
     assert match == cp.match_parts(v12, match.parts.pistons, match.parts.rods)
 
 
@@ -155,7 +155,7 @@ def test_heavy_pistons_go_with_light_rods() -> None:
     assert match.value == pytest.approx(min(ranges), rel=1e-12)
     several = cp.match_parts(I4, masses(13), rods(12), by="spread")
     assert (several.exact, several.bound) == (False, 0.0)
-    assert several.value < several.as_given
+    assert several.value < several.initial_value
 
 
 def test_parts_of_equal_masses_are_not_exchanged_for_ever() -> None:
@@ -163,7 +163,7 @@ def test_parts_of_equal_masses_are_not_exchanged_for_ever() -> None:
     pistons = np.round(0.45 + np.random.default_rng(3).normal(0.0, 0.004, 60), 3)
     match = cp.match_parts(cp.Engine.preset("i6"), pistons, orders=[1])
     assert not match.exact
-    assert 0.0 < match.value < 0.1 * match.as_given
+    assert 0.0 < match.value < 0.1 * match.initial_value
 
 
 @pytest.mark.parametrize(("sets", "spare"), [(1, 1), (1, 2), (2, 0), (2, 1)])
@@ -228,7 +228,7 @@ def test_pistons_and_rods_of_several_engines() -> None:
     assert sorted(used) == [*range(1, 13)]
     for engine, value in zip(match.engines, match.values, strict=True):
         assert remains(engine) == pytest.approx(value, rel=1e-9)
-    assert match.bound <= match.value < match.as_given
+    assert match.bound <= match.value < match.initial_value
     assert match.engines[1].name.endswith(", set 2")
 
 

@@ -28,7 +28,7 @@ turned = (
     for order in ORDERS
     for angle in range(1, 181)
 )
-assert not any(firing.even for order, engine in turned for firing in engine.firings(order))
+assert not any(firing.even for order, engine in turned for firing in engine.firing_schedules(order))
 
 # %% after cell-33
 assert b[1].moment.backward == 0

@@ -1,5 +1,5 @@
 # %% after cell-03
-assert bob.straight("force") == ((0, 90), (1, 0))
+assert bob.straight_line_factors("force") == ((0, 90), (1, 0))
 assert np.isclose(bob.fitted.balance(RPM)[1].force.peak, one / 2)
 assert round(bob.grams[0]) == 225
 
@@ -26,8 +26,8 @@ assert round(1000 * apart) == 142
 assert [round(e.balance(RPM).total.moment.peak) for e in steps.values()] == [2101, 823, 503]
 
 # %% after cell-16
-assert options.least.name == "counterweights + shaft −2"
-assert options.least.values[0] < 0.01 * options[0].values[0]
+assert options.smallest.name == "counterweights + shaft −2"
+assert options.smallest.values[0] < 0.01 * options[0].values[0]
 
 # %% after cell-18
 assert fitted.vanishes
@@ -52,4 +52,4 @@ assert pistons.values[1] > 50
 
 # %% after cell-26
 assert match.exact
-assert round(match.as_given / match.value, 1) == 4.6
+assert round(match.initial_value / match.value, 1) == 4.6

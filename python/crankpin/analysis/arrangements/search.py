@@ -200,7 +200,7 @@ def search_arrangements(
     with progress_bar.shown(watched, f"V{count}") as report:
         core = _core.Search(count, rule, phases, held, shared, report)
     listed_phases = None if phases is None else tuple(phases)
-    return ArrangementSearch(core, count, rule, listed_phases, hold, shared, progress=watched)
+    return ArrangementSearch(core, count, rule, listed_phases, hold, shared, _progress=watched)
 
 
 class ArrangementSearch(Tabled):
@@ -237,7 +237,7 @@ class ArrangementSearch(Tabled):
     """True if both banks share their crankpins."""
     window_deg: tuple[float, float] = _WHOLE
     """Range of the bank angles listed, degrees."""
-    progress: Progress = dataclasses.field(default=False, compare=False)
+    _progress: Progress = dataclasses.field(default=False, compare=False)
     """The progress bar, as given."""
 
     def __post_init__(self) -> None:
@@ -262,7 +262,7 @@ class ArrangementSearch(Tabled):
 
     @cached_property
     def _angles(self) -> _core.BankAngles:
-        with progress_bar.shown(self.progress, f"V{self.cylinders} bank angles") as report:
+        with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as report:
             return _core.BankAngles(self._search, self.window_deg, report)
 
     @cached_property

@@ -122,14 +122,14 @@ def balancer_options(
     >>> import crankpin as cp
     >>> v6 = cp.Engine.preset("v6-90")
     >>> options = cp.balancer_options(v6, rpm=6000, target={"[1].moment.peak": 0.0})
-    >>> options.least.name
+    >>> options.smallest.name
     'counterweights + shaft −1'
 
     One of 60° takes counterweights alone:
 
     >>> v6 = cp.Engine.preset("v6-60")
     >>> options = cp.balancer_options(v6, rpm=6000, target={"[1].moment.peak": 0.0})
-    >>> options.least.name
+    >>> options.smallest.name
     'counterweights'
     """
     engine_core(engine)
@@ -164,7 +164,7 @@ def balancer_options(
     )
     results = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
     options = tuple(
-        changed(each, values=tuple(row), on_front=best, reaches=enough)
+        changed(each, values=tuple(row), on_pareto_front=best, reaches=enough)
         for each, row, best, enough in results
     )
     bare = tuple(each.bare() for each in objectives)

@@ -37,7 +37,7 @@ class BalancerOption(Item):
     """The engine with them."""
     values: tuple[float, ...] = ()
     """Residual: the value of each objective, in its unit."""
-    on_front: bool = False
+    on_pareto_front: bool = False
     """True if no other set has as few shafts, as little unbalance and as little left."""
     reaches: bool = False
     """True if the target is reached; False without one."""
@@ -55,7 +55,7 @@ class BalancerOption(Item):
 
     def _figures(self) -> Mapping[str, object]:
         counts = {name: len(getattr(self, name)) for name in ("counterweights", "shafts")}
-        names = ("unbalance", "values", "on_front", "reaches")
+        names = ("unbalance", "values", "on_pareto_front", "reaches")
         return {"name": self.name} | counts | {name: getattr(self, name) for name in names}
 
 
@@ -69,7 +69,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     --------
     >>> import crankpin as cp
     >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
-    >>> [(option.name, len(option.shafts)) for option in options.front]
+    >>> [(option.name, len(option.shafts)) for option in options.pareto_front]
     [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
     >>> float(options[-1].fitted.balance(rpm=6000, orders=[2])[2].force.peak)
     0.0
@@ -89,15 +89,15 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     """All sets."""
 
     @property
-    def front(self) -> tuple[BalancerOption, ...]:
+    def pareto_front(self) -> tuple[BalancerOption, ...]:
         """The Pareto front: sets to which no other is equal or better in every respect.
 
         Respects are the number of shafts, the sum of unbalances and the value of each objective.
         """
-        return tuple(each for each in self.options if each.on_front)
+        return tuple(each for each in self.options if each.on_pareto_front)
 
     @property
-    def least(self) -> BalancerOption | None:
+    def smallest(self) -> BalancerOption | None:
         """The set with the fewest shafts, then the least unbalance, that reaches the target.
 
         None if no set does, or no target was given.
@@ -121,18 +121,18 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
     @property
     def _least(self) -> BalancerOption:
-        if self.least is None:
+        if self.smallest is None:
             what = "no set reaches the target" if self.targets else "no target was given"
             hint = f"{what}; choose one of options, such as options[0]"
             raise inputs.faulty("fitted", "is undefined", hint, AbsentError)
-        return self.least
+        return self.smallest
 
     # --- tables and pictures --------------------------------------------------------------------
 
     def tidy(self, *objectives: str) -> Table:
         """Return all sets in long form, a row for each set and objective.
 
-        Columns are name, n_shafts, unbalance, on_front, reaches, objective, value and unit.
+        Columns are name, n_shafts, unbalance, on_pareto_front, reaches, objective, value and unit.
 
         Parameters
         ----------
@@ -153,7 +153,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         chosen = [inputs.one_of("objectives", name, names) for name in objectives] or names
         rows = [
             (
-                each.name, len(each.shafts), each.unbalance, each.on_front, each.reaches,
+                each.name, len(each.shafts), each.unbalance, each.on_pareto_front, each.reaches,
                 objective.label, value, objective.unit,
             )
             for each in self.options
@@ -161,8 +161,8 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             if objective.label in chosen
         ]  # fmt: skip
         heads = (
-            "name", "n_shafts", ("unbalance", "kg·m"), "on_front", "reaches", "objective", "value",
-            "unit",
+            "name", "n_shafts", ("unbalance", "kg·m"), "on_pareto_front", "reaches", "objective",
+            "value", "unit",
         )  # fmt: skip
         title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: sets of hardware"
         return Table.from_rows(
@@ -173,7 +173,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     def table(self) -> Table:
         """Table that is shown: the Pareto front."""
         engine = labels.name_of(self.engine)
-        front = self.front[:SHOWN]
+        front = self.pareto_front[:SHOWN]
         columns = {
             "set": [each.name for each in front],
             "shafts": [str(len(each.shafts)) for each in front],
@@ -183,7 +183,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         heads = [(each.head, each.unit) for each in self.objectives]
         return Table.from_rows(
             f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against residual, "
-            f"{len(self.front)} of {len(self)} sets on the Pareto front",
+            f"{len(self.pareto_front)} of {len(self)} sets on the Pareto front",
             [*columns, ("unbalance", "kg·m"), *heads],
             list(zip(*columns.values(), strict=True)),
             np.array([(each.unbalance, *each.values) for each in front]),
@@ -205,5 +205,5 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
             f"{by_label[label].head} ≤ {value:.5g} {by_label[label].unit}".strip()
             for label, value in self.targets
         )
-        outcome = "no set reaches it" if self.least is None else f"least {self.least.name}"
+        outcome = "no set reaches it" if self.smallest is None else f"least {self.smallest.name}"
         return f"Target: {wanted}; {outcome}."

@@ -129,9 +129,9 @@ class BobWeight(Tabled):
 
     >>> import crankpin as cp
     >>> single = cp.bob_weight(cp.Engine.preset("single"))
-    >>> single.straight("force")
+    >>> single.straight_line_factors("force")
     ((0.0, 90.0), (1.0, 0.0))
-    >>> single.least("force")
+    >>> single.optimal_factor("force")
     0.5
     """
 
@@ -250,7 +250,7 @@ class BobWeight(Tabled):
         )
         return (longest, shortest) if factors.ndim else (float(longest), float(shortest))
 
-    def least(self, quantity: str) -> float | None:
+    def optimal_factor(self, quantity: str) -> float | None:
         """Return the factor of the least longest vector: 0.5 on one crankshaft, without pin offset.
 
         From 0 to 10, as ``factor`` is taken. None if the factor makes no difference: the pistons
@@ -273,7 +273,7 @@ class BobWeight(Tabled):
         """
         return self._first_order.least(_vector(quantity))
 
-    def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
+    def straight_line_factors(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
 
         On one crankshaft, without pin offset, ``½(1 ± |backward|/|forward|)``; none if either part
@@ -357,9 +357,9 @@ class BobWeight(Tabled):
         """Return the factors with a property of their own, and that in words."""
         yield self.factor, ""
         for name in PLANE_VECTORS:
-            if (least := self.least(name)) is not None:
+            if (least := self.optimal_factor(name)) is not None:
                 yield least, f"least {name}"
-            for factor, direction_deg in self.straight(name):
+            for factor, direction_deg in self.straight_line_factors(name):
                 yield factor, f"{name} along {direction_deg:.4g}°"
 
     # --- card -----------------------------------------------------------------------------------

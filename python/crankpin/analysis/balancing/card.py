@@ -237,7 +237,7 @@ class Card(Tabled):
         straight = (
             (factor, f"straight line of the {name}")
             for name in PLANE_VECTORS
-            for factor, _ in self.bob.straight(name)
+            for factor, _ in self.bob.straight_line_factors(name)
         )
         return remarks_by_factor(self.factors, straight)
 

@@ -49,7 +49,7 @@ class DrivenResponse(MountResponse):
     """The powertrain."""
     rpm: NDArray[np.float64] | float
     """Crank speeds: an array where several were given, else a number."""
-    request: Request
+    _request: Request
     """Orders and tolerance, checked."""
     actuators: tuple[Actuator, ...]
     """The actuators."""
@@ -142,7 +142,7 @@ class Cancellation(Tabled):
             actuators = (*before.actuators, *actuators)
             forces = np.concatenate([before.forces, forces], axis=-1)
         return DrivenResponse(
-            before.powertrain, before.rpm, before.request, actuators, forces, engine_runs
+            before.powertrain, before.rpm, before._request, actuators, forces, engine_runs
         )
 
     def _alone(self, actuator: Actuator) -> DrivenResponse:
@@ -176,7 +176,7 @@ class Cancellation(Tabled):
         return np.asarray(np.max([np.linalg.norm(part, axis=-1) for part in parts], axis=0))
 
     @property
-    def used(self) -> NDArray[np.float64]:
+    def utilisation(self) -> NDArray[np.float64]:
         """Force over the largest that motor and stroke allow: (…, n_orders, n_actuators)."""
         bounds = [one.largest_force(self._frequency()) for one in self.actuators]
         return read_only(np.abs(self.forces) / np.stack(bounds, axis=-1))
@@ -333,7 +333,7 @@ class Cancellation(Tabled):
         others = [order for order in self.before.orders if order not in self.orders]
         if others:
             notes.append(f"{labels.orders_text(tuple(others)).capitalize()}: as before.")
-        together = self.used.sum(axis=-2)
+        together = self.utilisation.sum(axis=-2)
         for k, one in enumerate(self.actuators):
             share = float(np.max(together[..., k]))
             if len(self.orders) > 1 and share > 1.0 + LEVEL:
@@ -350,7 +350,7 @@ class Cancellation(Tabled):
 
     def _of_actuators(self) -> Table:
         swept = bool(self.before.dims)
-        frequency, used, forces = self._frequency(), self.used, self.forces
+        frequency, used, forces = self._frequency(), self.utilisation, self.forces
         speeds = np.asarray(self.before.rpm, dtype=float)
         rows: list[list[Any]] = []
         for j, one in enumerate(self.actuators):

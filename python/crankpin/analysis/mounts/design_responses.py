@@ -47,7 +47,7 @@ class DesignResponses(Labelled):
     """Name of a mount → figure → its value in each design: (n_designs,) or (n_designs, n_axes)."""
     rpm: NDArray[np.float64]
     """Crank speeds."""
-    request: Request
+    _request: Request
     """Orders and tolerance, checked."""
     with_mount_force: bool
     """True if the force of each mount is computed."""
@@ -57,7 +57,7 @@ class DesignResponses(Labelled):
     """Frequency at which natural frequencies take the stiffness, Hz."""
 
     def __post_init__(self) -> None:
-        request = check_request(self.request, "Powertrain.designs")
+        request = check_request(self._request, "Powertrain.designs")
         names = self.powertrain.names
         vary = []
         for name, figures in self.vary.items():

@@ -178,7 +178,7 @@ class VelocityFeedback(Tabled):
         return float(-1.0 / at[first]), float(low[first])
 
     @property
-    def used_gain(self) -> float:
+    def applied_gain(self) -> float:
         """The gain, N·s/m: that given, or half of the largest."""
         if self.gain is not None:
             return self.gain
@@ -187,9 +187,9 @@ class VelocityFeedback(Tabled):
     @property
     def margin_db(self) -> float:
         """Largest gain over the gain, dB; below zero it is unstable."""
-        if self.used_gain == 0.0 or not np.isfinite(self.largest_gain):
+        if self.applied_gain == 0.0 or not np.isfinite(self.largest_gain):
             return np.inf
-        return float(20.0 * np.log10(self.largest_gain / self.used_gain))
+        return float(20.0 * np.log10(self.largest_gain / self.applied_gain))
 
     def ratio(self, frequency: Any) -> NDArray[np.float64]:  # noqa: ANN401 - an array
         """Return velocity with feedback over that without it, under any load of the engine.
@@ -212,17 +212,17 @@ class VelocityFeedback(Tabled):
         given = inputs.vector("frequency", frequency)
         if not (given > 0.0).all():
             raise inputs.rejected("frequency", frequency, "give numbers that are more than zero")
-        return read_only(1.0 / np.abs(1.0 + self.used_gain * self._mobility(given)))
+        return read_only(1.0 / np.abs(1.0 + self.applied_gain * self._mobility(given)))
 
     @property
     def table(self) -> Table:
         """Velocity with over without feedback, at each mode and where it is worst."""
         grid = self._grid
-        if not np.isfinite(self.used_gain):
+        if not np.isfinite(self.applied_gain):
             ratios: list[float | None] = [None] * (len(self._modes) + 1)
             at = None
         else:
-            whole = 1.0 / np.abs(1.0 + self.used_gain * self._on_grid)
+            whole = 1.0 / np.abs(1.0 + self.applied_gain * self._on_grid)
             k = int(np.argmax(whole))
             ratios = [*self.ratio(self._modes).tolist(), float(whole[k])]
             at = float(grid[k])
@@ -237,7 +237,7 @@ class VelocityFeedback(Tabled):
         if (cut := self._cut) is not None:
             onset += f", within the tables of stiffness, {cut[0]:g} to {cut[1]:g} Hz"
         note = (
-            f"Gain {self.used_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "
+            f"Gain {self.applied_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "
             f"{self.largest_gain:.6g} N·s/m{onset}."
         )
         title = f"{self.powertrain._title}: velocity fed back through {self.actuator.name!r}"

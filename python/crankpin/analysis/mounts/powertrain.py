@@ -492,7 +492,7 @@ class Powertrain(Framed, Input):
             given,
         )
 
-    def on(self, support: Support | None) -> Self:
+    def with_support(self, support: Support | None) -> Self:
         """Return the same powertrain on a flexible support.
 
         Parameters
@@ -521,13 +521,13 @@ class Powertrain(Framed, Input):
         ...     cp.RigidBody(mass=100, cg=(0, -0.1, 0.2), inertia=(9, 12, 6)),
         ...     [mount.replace(stiffness=8e5) for mount in mounts],
         ... )
-        >>> r = p.on(base).response(rpm=3000, orders=[2])
+        >>> r = p.with_support(base).response(rpm=3000, orders=[2])
         >>> bool(r.ground_force[2].peak < r.body_force[2].peak)
         True
         """
         return self.replace(support=support)
 
-    def without(self, cylinder: int) -> Self:
+    def with_misfire(self, cylinder: int) -> Self:
         """Return the same powertrain with a cylinder that does not fire.
 
         Parameters

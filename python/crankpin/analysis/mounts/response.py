@@ -68,7 +68,7 @@ def _warn_of_free_motion(found: MountResponse) -> None:
     """Warn of a motion that no mount resists."""
     powertrain = found.powertrain
     if isinstance(powertrain.support, Receptance):
-        powertrain = powertrain.on(None)  # What no mount resists is free on anything.
+        powertrain = powertrain.with_support(None)  # What no mount resists is free on anything.
     frequency = None
     if powertrain._varies:
         turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
@@ -215,7 +215,9 @@ class PointMotion(Labelled):
 def _require_subframe(powertrain: Powertrain, name: str) -> None:
     """Raise an error where no subframe carries the mounts."""
     if not isinstance(powertrain.support, Subframe):
-        raise AbsentError(f"{name}: no subframe carries the mounts; give one, p.on(cp.Subframe(…))")
+        raise AbsentError(
+            f"{name}: no subframe carries the mounts; give one, p.with_support(cp.Subframe(…))"
+        )
 
 
 class MountQuantities:
@@ -430,11 +432,11 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     """The powertrain."""
     rpm: NDArray[np.float64] | float
     """Crank speeds: an array where several were given, else a number."""
-    request: Request
+    _request: Request
     """Orders and tolerance, checked."""
 
     def __post_init__(self) -> None:
-        request = check_request(self.request, "Powertrain.response")
+        request = check_request(self._request, "Powertrain.response")
         speeds = np.atleast_1d(np.asarray(self.rpm, dtype=float))
         core = self.powertrain._core.response(
             self.powertrain.engine._core, speeds, request.orders, request.rtol, *self._drive()
@@ -560,9 +562,9 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         """Return this response if it has an order, else the same of that order alone."""
         if order in self.orders:
             return self
-        request = self.request.at_orders((order,))
+        request = self._request.at_orders((order,))
         one: MountResponse = self._once(
-            ("order", order), lambda: changed(self, request=request, **self._of_order())
+            ("order", order), lambda: changed(self, _request=request, **self._of_order())
         )
         return one
 
@@ -611,17 +613,17 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         """
         inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
-        request = self.request.about(name, z if point is None else point)
+        request = self._request.about(name, z if point is None else point)
         core = self.powertrain.engine._core
         checks.place(core, name, request.reference_z)
         checks.place(core, name, *request.aside, middle=0.0)
-        return changed(self, request=request)
+        return changed(self, _request=request)
 
     @property
     def _point(self) -> tuple[float, float, float] | None:
         """Point about which moments are; None for the CG."""
-        z = self.request.reference_z
-        return None if z is None else (*self.request.aside, z)
+        z = self._request.reference_z
+        return None if z is None else (*self._request.aside, z)
 
     def sel(self, *, rpm: float) -> Self:  # type: ignore[override] # of its one dimension
         """Return the response at one of the speeds.
@@ -763,7 +765,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         Of orders chosen automatically, those whose forces are all negligible are left out.
         """
         places = list(range(len(self.orders)))
-        if self.request.orders is not None:
+        if self._request.orders is not None:
             return places, ""
         peaks = self.read("mount_force", "peak").max(axis=-1)
         kept = peaks > labels.NEGLIGIBLE * peaks.max()
@@ -774,7 +776,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
 
     def _title(self, of: str) -> str:
         at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
-        given = " of the orders given" if self.request.orders is not None else ""
+        given = " of the orders given" if self._request.orders is not None else ""
         return f"{self.powertrain._title}{at}: {of}{given}"
 
     def _first_rows(self, rows: int, read: Callable[[Self], Table]) -> Table | None:

@@ -54,7 +54,7 @@ class Objective(NamedTuple):
     def values(self, swept: Sweep) -> NDArray[np.float64]:
         """Return the value of each engine at each bank angle: (n_engines, n_angles)."""
         if self.order is not None and self.order not in swept.orders:
-            if swept.request.orders is not None:
+            if swept._request.orders is not None:
                 hint = f'by = "{self.label}" needs order {self.order}'
                 raise inputs.rejected("orders", list(swept.orders), hint)
             # Left out as negligible, or zero.
@@ -124,7 +124,7 @@ def tie_tolerance(tie_rtol: object) -> float:
 def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
     """Yield the balances of each engine at each bank angle."""
     angles = swept.coords.get("bank_angle_deg")
-    request, hold = swept.request, swept.hold
+    request, hold = swept._request, swept.hold
     chosen = {"orders": swept.orders} if swept.orders else {"rtol": request.rtol}
     for engine in swept.engines:
         turned = (
@@ -209,11 +209,11 @@ def of_table(swept: Sweep) -> list[Objective]:
         for quantity in ("moment", "force")
         for path in (("total", "peak"), ("[1]", "backward"), ("[2]", "peak"))
     ]
-    if "torque" in swept.request.quantities:
+    if "torque" in swept._request.quantities:
         names.append("total.torque.peak")
     if all(len(engine) <= MOST_CYLINDERS for engine in swept.engines):
         names.append("unevenness_deg")
-    orders = swept.request.orders
+    orders = swept._request.orders
     return [each for each in map(named, names) if orders is None or each.order in (None, *orders)]
 
 

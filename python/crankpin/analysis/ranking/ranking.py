@@ -136,7 +136,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
-        least = self._minimised(objectives, given=self.sweep.request.orders is not None)
+        least = self._minimised(objectives, given=self.sweep._request.orders is not None)
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
     @property
@@ -246,7 +246,7 @@ def _largest(values: NDArray[np.float64]) -> float:
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
     axes = {**swept.axes, "bank_angle_deg": angles}
-    return changed(swept, engines=(engine,), names=("",), axes=axes, request=swept._of_parts)
+    return changed(swept, engines=(engine,), names=("",), axes=axes, _request=swept._of_parts)
 
 
 def angles_of(swept: Sweep) -> NDArray[np.float64] | None:

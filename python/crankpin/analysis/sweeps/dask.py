@@ -33,7 +33,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     axes = {name: _axis(whole, name, by_name[name]) for name in lengths}
     # What every chunk has: its axes come in slices.
     first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
-    common = changed(whole, axes=first, request=whole._of_parts)
+    common = changed(whole, axes=first, _request=whole._of_parts)
     variables: dict[str, Any] = {}
     listed = [whole._quantity(name) for name in quantities]
     for quantity, what in [

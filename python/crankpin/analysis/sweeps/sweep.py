@@ -209,16 +209,16 @@ class Sweep(ByOrder[Any]):
     """Values of each argument: an array where it is swept, else a number."""
     hold: Hold | None
     """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
-    request: Request
+    _request: Request
     """The options of the sweep, checked."""
     gas_map: GasMap | None = None
     """Cycles over speed and load, and the pressure below the pistons; None without ``cycle``."""
-    progress: Progress = field(default=False, compare=False, repr=False)
+    _progress: Progress = field(default=False, compare=False, repr=False)
     """The progress bar, as given."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        request = check_request(self.request, "crankpin.sweep")
+        request = check_request(self._request, "crankpin.sweep")
         axes = {
             name: values if isinstance(values, np.ndarray) else np.array([values])
             for name, values in self.axes.items()
@@ -248,7 +248,7 @@ class Sweep(ByOrder[Any]):
 
         As :attr:`Balance.error_bound`.
         """
-        return self.request.bounds(self._core.error_bound)
+        return self._request.bounds(self._core.error_bound)
 
     @property
     def fired(self) -> bool:
@@ -264,7 +264,7 @@ class Sweep(ByOrder[Any]):
         """Loads that count where more could, in words: as :attr:`Balance.loads_counted`."""
         if self.gas_map is None:
             return super().loads_counted
-        return self.request.loads_counted(self.gas_map.loads_counted(self._engines, self._titles))
+        return self._request.loads_counted(self.gas_map.loads_counted(self._engines, self._titles))
 
     @property
     def _core(self) -> _core.Sweep:
@@ -306,12 +306,12 @@ class Sweep(ByOrder[Any]):
     def __reduce__(self) -> tuple[Any, ...]:
         # A progress bar stays where it is shown; functions cannot be pickled.
         rebuild, (kind, fields) = super().__reduce__()
-        return rebuild, (kind, fields | {"progress": False})
+        return rebuild, (kind, fields | {"_progress": False})
 
     @property
     def _of_parts(self) -> Request:
         """The request of parts of the sweep: orders chosen for the whole serve them."""
-        return self.request.at_orders(self.orders) if self.orders else self.request
+        return self._request.at_orders(self.orders) if self.orders else self._request
 
     @property
     def _engines(self) -> tuple[Engine, ...]:
@@ -319,10 +319,10 @@ class Sweep(ByOrder[Any]):
 
     def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
-        return changed(self, request=check_request(request, "crankpin.sweep"))
+        return changed(self, _request=check_request(request, "crankpin.sweep"))
 
     def _about_axis(self, quantity: str, what: str) -> NDArray[Any]:
-        with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
+        with progress_bar.shown(self._progress, f"{quantity}, {what}") as report:
             if what == VALUES:
                 return self._core.phasors(quantity, False, report)
             if what in labels.TURNING:
@@ -386,7 +386,7 @@ class Sweep(ByOrder[Any]):
             return changed(self, engines=engines, names=names, axes=axes)
         return self._balance_at(tuple(places[name] for name in self.dims))
 
-    def least(self, values: ArrayLike) -> Balance:
+    def at_minimum(self, values: ArrayLike) -> Balance:
         """Return the balance at the swept point where values of the sweep are least.
 
         Parameters
@@ -411,7 +411,7 @@ class Sweep(ByOrder[Any]):
         >>> import crankpin as cp
         >>> fired = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
         >>> s = cp.sweep(fired, rpm=range(1000, 6001, 50))
-        >>> s.least(s[2].crank_torque.peak).rpm
+        >>> s.at_minimum(s[2].crank_torque.peak).rpm
         4150.0
         """
         if isinstance(values, str):
@@ -431,7 +431,7 @@ class Sweep(ByOrder[Any]):
         """Return the balance at a point, given by its place in each swept dimension."""
         at = {name: self.coords[name][k] for name, k in zip(self.dims, places, strict=True)}
         rpm = float({**self.fixed, **at}["rpm"])
-        return Balance(self.engine_at(**at), rpm, self.request, (self, places))
+        return Balance(self.engine_at(**at), rpm, self._request, (self, places))
 
     def _places(self, selection: Mapping[str, Any]) -> dict[str, int]:
         """Return the place of each selected value in its dimension."""
@@ -535,7 +535,7 @@ class Sweep(ByOrder[Any]):
         (2, 2, 360)
         """
         theta = inputs.crank_angles(theta_deg)
-        if inputs.flag("exact", exact) and self.request.pairs is not None:
+        if inputs.flag("exact", exact) and self._request.pairs is not None:
             hint = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
             raise inputs.rejected("exact", True, hint)
         return SweepWaveform(self, theta, bool(exact))
@@ -575,7 +575,7 @@ class Sweep(ByOrder[Any]):
         >>> s.to_dask(1000).force_peak.chunks
         ((1000, 1000, 1000, 1000, 1000, 1000), (1,))
         """
-        if self.progress is not False:
+        if self._progress is not False:
             hint = "use dask.diagnostics.ProgressBar"
             raise inputs.faulty("progress", "cannot be combined with to_dask", hint)
         return dask.dataset(self, chunks, self._chosen(quantities))
@@ -587,7 +587,7 @@ class Sweep(ByOrder[Any]):
 
     def _by_point(self, title: str, peaks: Callable[[str], NDArray[np.float64]]) -> Table:
         """Return a table of the points, with a peak of each quantity."""
-        names = [name for name in self.request.quantities if name != "crank_torque"]
+        names = [name for name in self._request.quantities if name != "crank_torque"]
         columns = export.points(self.coords, len(names))
         for name in names:
             kind = QUANTITIES[name]
@@ -595,7 +595,7 @@ class Sweep(ByOrder[Any]):
         return Table(title, tuple(columns), loads=self.loads_counted)
 
     def _title(self, of: str = "") -> str:
-        which = " of the orders given" if self.request.orders is not None else ""
+        which = " of the orders given" if self._request.orders is not None else ""
         fixed = [labels.value_text(name, value) for name, value in self.fixed.items()]
         held = [labels.HELD[self.hold]] if self.hold else []
         engine = f"{engine_titles(self)[0]}: " if self.names is None else ""

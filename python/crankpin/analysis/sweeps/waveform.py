@@ -61,9 +61,9 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         super().__post_init__()
 
     @property
-    def request(self) -> Request:
+    def _request(self) -> Request:
         """The options of the sweep, checked."""
-        return self.sweep.request
+        return self.sweep._request
 
     @property
     def fired(self) -> bool:
@@ -88,7 +88,7 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
     @property
     def error_bound(self) -> Mapping[str, float]:
         """As :attr:`Sweep.error_bound`, N and N·m; zero for exact kinematics."""
-        return self.request.bounds((0.0, 0.0, 0.0)) if self.exact else self.sweep.error_bound
+        return self._request.bounds((0.0, 0.0, 0.0)) if self.exact else self.sweep.error_bound
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return self.values(quantity)
@@ -136,7 +136,7 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         >>> force is buffer
         True
         """
-        self.sweep.request.check(quantity, self)
+        self.sweep._request.check(quantity, self)
         name = quantity
         progress = progress_bar.checked(progress)
         core = self.sweep._core
@@ -144,7 +144,7 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         values = np.empty(shape) if out is None else inputs.output("out", out, shape)
         with progress_bar.shown(progress, "waveforms") as report:
             core.waveform(name, self.__dict__["_angles"], self.exact, values.reshape(-1), report)
-        x, y = self.request.aside
+        x, y = self._request.aside
         whole, point, part = name.partition(".")
         if whole == "torque" and part != "gas" and (x != 0.0 or y != 0.0):
             force = self.read(f"force{point}{part}")

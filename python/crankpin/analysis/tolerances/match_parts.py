@@ -224,7 +224,7 @@ def match_parts(
     >>> match = cp.match_parts(i4, [0.402, 0.398, 0.405, 0.401], orders=[1])
     >>> match.exact, match.assignment[0].pistons
     (True, (4, 2, 3, 1))
-    >>> bool(match.value <= match.as_given)
+    >>> bool(match.value <= match.initial_value)
     True
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
     0.0
@@ -494,7 +494,7 @@ class Match(Tabled):
         return sum(self.values)
 
     @property
-    def as_given(self) -> float:
+    def initial_value(self) -> float:
         """The same of the parts in the order in which they were given."""
         count = len(self.engine)
         engines = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
@@ -560,4 +560,4 @@ class Match(Tabled):
         none = f"none is below {self.bound:.4g} {self.unit}"
         known = "no assignment is better" if self.exact else none
         title = f"{WORDS[self.by]}: {self.value:.4g} {self.unit}, {known}"
-        return Table(f"{title}; as given {self.as_given:.4g} {self.unit}", tuple(columns))
+        return Table(f"{title}; as given {self.initial_value:.4g} {self.unit}", tuple(columns))

@@ -108,7 +108,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     """Number of samples."""
     seed: int
     """Seed of the random numbers."""
-    request: Request
+    _request: Request
     """The options of the samples, checked."""
     bounds: tuple[float, float, float]
     """Bounds on what omitted orders add to force, moment and torque of the nominal engine."""
@@ -118,12 +118,12 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     def __post_init__(self) -> None:
         if not isinstance(self.figures, Spreads):
             raise inputs.rejected("figures", self.figures, "use crankpin.tolerances")
-        check_request(self.request, "crankpin.tolerances")
+        check_request(self._request, "crankpin.tolerances")
 
     @property
     def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed."""
-        return self.request.orders or ()
+        return self._request.orders or ()
 
     @property
     def omitted(self) -> tuple[int, ...]:
@@ -133,7 +133,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     @property
     def error_bound(self) -> Mapping[str, float]:
         """Quantity → upper bound on what omitted orders add to the nominal engine, N or N·m."""
-        return self.request.bounds(self.bounds)
+        return self._request.bounds(self.bounds)
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -155,7 +155,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     def _with_request(self, request: Request) -> Tolerances:
         """Raise an InputError: samples have the orders and the plane that were given."""
         orders = check_request(request, "crankpin.tolerances").orders
-        if orders == self.request.orders:
+        if orders == self._request.orders:
             hint = "moments of samples are; give the tolerances of engine.replace(reference_z=…)"
             raise inputs.faulty("point", "is not in the engine's plane", hint)
         known = labels.orders_text(self.orders)
@@ -180,7 +180,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
     @cached_property
     def nominal(self) -> Balance:
         """Balance of the nominal engine, of the same orders."""
-        return Balance(self.engine, self.rpm, self.request)
+        return Balance(self.engine, self.rpm, self._request)
 
     @property
     def causes(self) -> tuple[str, ...]:
@@ -204,8 +204,8 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
             engine_core(self.engine),
             self.rpm,
             list(self.orders),
-            self.request.reference_z,
-            self.request.torque,
+            self._request.reference_z,
+            self._request.torque,
             self.figures.values,
             self.figures.distribution,
             self.figures.pin_of,
@@ -399,7 +399,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         >>> abs(shares["interaction"].values[0]) < 5  # %
         True
         """
-        named = names_of(by, self.request)
+        named = names_of(by, self._request)
         figures = self.figures.given
         total = np.array([self.std(name) ** 2 for name in named])
         parts = [changed(self, figures=self.figures.only(figure), by=named) for figure in figures]
@@ -510,7 +510,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)
-        return _checked(name, self.request)
+        return _checked(name, self._request)
 
 
 def _read(objective: Objective, result: Any) -> NDArray[np.float64]:  # noqa: ANN401 - see below
