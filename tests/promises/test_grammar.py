@@ -121,3 +121,19 @@ def test_chosen_columns_of_the_long_form() -> None:
     assert {*table.tidy(name)["quantity"].values} == {name}
     with pytest.raises(cp.InputError, match="columns = 'power'"):
         table.tidy("power")
+
+
+def exported(value: Framed) -> list[object]:
+    """All that leaves the program without ``units=``."""
+    whole, array = value.to_xarray(), value.to_pandas()
+    units = [(name, each.attrs.get("units")) for name, each in whole.variables.items()]
+    texts = [value.to_csv(frame=frame) for frame in value.frames]
+    return [*texts, value.tidy().to_csv(), [*array.columns], array.to_csv(), units]
+
+
+@every_name
+def test_exports_are_si_whatever_units_are_shown(name: str) -> None:
+    value = RESULTS[name]
+    before = exported(value)
+    with cp.units(IMPERIAL):
+        assert exported(value) == before

@@ -153,7 +153,7 @@ class Framed:
         InputError
             If there is no such column of numbers.
         """
-        return self.table._long(columns)
+        return self._exported(FIRST, "")._long(columns)
 
     def _exported(self, frame: str, units: str) -> Table:
         """Return a frame in units that an export asks for."""
