@@ -498,7 +498,7 @@ def test_a_main_bearing_whose_loads_cancel_carries_none() -> None:
     assert cp.bearing_loads(flat.replace(cylinder=heavier), 5000).main[1].any()
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_a_mean_does_not_depend_on_the_order_of_angles(seed: int) -> None:
     """And lies between zero and the largest value."""
     random = np.random.default_rng(seed)
@@ -573,7 +573,7 @@ def with_sides(theta: np.ndarray, knots: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.filterwarnings("ignore:theta_deg. pressure peaks")
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_peaks_of_a_cycle_are_those_of_a_fine_grid(seed: int) -> None:
     rng = np.random.default_rng(seed)
     engine, knots = fired_at_random(rng)
@@ -616,7 +616,7 @@ def test_the_peak_of_a_yoke_is_its_own_at_any_top_dead_centre() -> None:
 
 
 @pytest.mark.filterwarnings("ignore:theta_deg. pressure peaks")
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_rods_are_in_tension_between_narrow_peaks(seed: int) -> None:
     """Peaks of pressure 0.16° wide push rods that are in tension beside them."""
     rng = np.random.default_rng([7, seed])
@@ -658,7 +658,7 @@ def test_a_shared_crankpin_carries_all_of_its_rods(name: str) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:theta_deg. pressure peaks")
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_the_peak_of_a_shared_crankpin_is_that_of_a_fine_grid(seed: int) -> None:
     """Also where narrow peaks of pressure are far from the largest load at whole degrees."""
     rng = np.random.default_rng([11, seed])
@@ -713,7 +713,7 @@ def test_specific_loads_are_over_width_and_diameter() -> None:
         loads.specific("main", width=0.02, diameter=50)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@in_turn("seed", range(5))
 def test_bearings_of_balance_shafts_carry_their_unbalances(seed: int) -> None:
     """Forces and moments of both bearings are those of the unbalances, which turn together."""
     rng = np.random.default_rng(seed)

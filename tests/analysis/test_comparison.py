@@ -7,7 +7,7 @@ import pickle
 import crankpin as cp
 import numpy as np
 import pytest
-from support import html_of
+from support import html_of, in_turn
 from support.engines import I4, V6
 
 SHAFTS = [
@@ -88,7 +88,7 @@ def test_it_is_made_of_two_like_balances() -> None:
         kind(I4.balance(5000, orders=[1]), FITTED.balance(5000, orders=[2]))
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_an_engine_that_is_lumped_differs_in_order_1_alone(seed: int) -> None:
     """For any rod ratio, offset and layout; with nothing that rotates, in none."""
     random = np.random.default_rng(seed)

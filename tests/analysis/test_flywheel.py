@@ -522,7 +522,7 @@ def test_the_table_has_the_figures() -> None:
     assert below["error"].values == (100 * (found.approximations[0] / found.irregularity - 1),)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_orders_and_swing_are_those_of_a_small_fluctuation(seed: int) -> None:
     """Of T = Σ Tₖ cos(kθ + φₖ): δₖ = 2·Tₖ/(k·J·ω²), ψₖ = δₖ/k, to the size of the fluctuation."""
     rng = np.random.default_rng(seed)

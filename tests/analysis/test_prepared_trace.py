@@ -13,6 +13,7 @@ from crankpin._support import inputs
 from crankpin.analysis import prepared_trace
 from numpy.typing import NDArray
 from rederivation import traces as again
+from support import in_turn
 
 Array = NDArray[np.float64]
 THETA = np.arange(-360.0, 360.0, 0.5)
@@ -61,7 +62,7 @@ def bench(seed: int, *, noise: float | None = None) -> Bench:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_shift_offset_imep_and_spread_are_recovered(seed: int) -> None:
     known = bench(seed)
     prepared = cp.prepare_trace(
@@ -92,7 +93,7 @@ def test_shift_offset_imep_and_spread_are_recovered(seed: int) -> None:
     np.testing.assert_allclose(measured, phasors, atol=6e-3 * abs(phasors).max())
 
 
-@pytest.mark.parametrize("seed", range(4))
+@in_turn("seed", range(4))
 def test_offsets_by_intake_sensor_and_two_points_agree(seed: int) -> None:
     known = bench(seed, noise=1.0)
     given: dict[str, Any] = {"tdc_deg": known.shift}
@@ -115,7 +116,7 @@ def test_offsets_by_intake_sensor_and_two_points_agree(seed: int) -> None:
     assert abs(fitted.offsets.mean() - two) < 200.0
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_the_fitted_exponent_is_that_of_the_compression(seed: int) -> None:
     """Without noise the offsets are those of the trace; with it no other exponent leaves less."""
     rng = np.random.default_rng([3, seed])
@@ -147,7 +148,7 @@ def test_the_fitted_exponent_is_that_of_the_compression(seed: int) -> None:
     assert around.min() - 1.0 <= offsets.mean() <= around.max() + 1.0
 
 
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("seed", range(3))
 def test_filters_take_noise_and_leave_orders_below_them(seed: int) -> None:
     known = bench(seed)
     prepared = cp.prepare_trace(known.traces, known.cylinder, lowpass_order=60)

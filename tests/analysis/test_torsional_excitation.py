@@ -12,6 +12,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from numpy.typing import NDArray  # noqa: TC002 - read by tests of signatures
+from support import in_turn
 from support.several_cranks import random_engine
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, pin_offset=0.002, bore=0.086)
@@ -90,7 +91,7 @@ def test_a_range_of_speeds_has_what_each_speed_has(engine: cp.Engine) -> None:
         cp.torsional_excitation(engine, rpm=[])
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_reciprocating_inertia_is_the_mean_of_what_moves(seed: int) -> None:
     """Of all cylinders, the mean of the moving inertia that a flywheel sees; near half m·r²."""
     rng = np.random.default_rng(seed)
@@ -111,7 +112,7 @@ def test_reciprocating_inertia_is_the_mean_of_what_moves(seed: int) -> None:
     np.testing.assert_allclose(plain.reciprocating_inertia, 0.5 * 0.5 * 0.043**2, rtol=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_reciprocating_inertia_is_that_seen_from_the_main_crank(seed: int) -> None:
     """Twice the mean kinetic energy of piston and rod over the square of the main crank's speed."""
     engine = random_engine(seed)

@@ -11,6 +11,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from rederivation import pressure as again
+from support import in_turn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -169,7 +170,7 @@ def test_error_estimates_of_random_tables_hold() -> None:
         assert error.max() <= cycle.resolution_error(CYLINDER, ORDERS).max()
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_bounds_of_random_tables_hold_whatever_is_between_points(seed: int) -> None:
     """Pressure between two points that goes from one value to the other in any manner."""
     rng = np.random.default_rng(seed)

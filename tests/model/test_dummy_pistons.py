@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from crankpin.cli import main
 from crankpin.view.figures import places
+from support import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -46,7 +47,7 @@ def test_a_dummy_piston_balances_and_has_no_gas() -> None:
         engine.with_cycle([PETROL, PETROL])
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_dummies_have_no_place_in_firing_orders(seed: int) -> None:
     """An engine with dummies fires as those of its cylinders do that fire."""
     rng = np.random.default_rng(seed)

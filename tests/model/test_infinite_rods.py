@@ -11,6 +11,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.view.figures import figures
+from support import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -53,7 +54,7 @@ def fired(engine: cp.Engine) -> cp.Engine:
     return engine.replace(firing_order=order.firing_order).with_cycle(cp.Cycle.example())
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_infinite_rods_are_the_limit_of_long_ones(seed: int) -> None:
     engine = random_engine(np.random.default_rng(seed))
     engine = fired(engine) if seed % 2 else engine
@@ -106,7 +107,7 @@ def test_a_yoke_is_a_free_body() -> None:
     assert engine.balance(3000).total.force.peak == pytest.approx(size, rel=1e-14)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_all_higher_orders_are_proved_zero(seed: int) -> None:
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 5))

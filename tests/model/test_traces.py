@@ -9,6 +9,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from rederivation import traces as again
+from support import in_turn
 
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
 CRANK = (0.043, 0.145, 0.0)
@@ -23,7 +24,7 @@ def measured(seed: int) -> cp.Traces:
     return cp.Traces(THETA, 1e5 + base * strength)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@in_turn("seed", range(5))
 def test_imep_cov_and_harmonics_are_those_of_sums_over_points(seed: int) -> None:
     traces = measured(seed)
     imep = again.imep(THETA, traces.pressure, CRANK)
@@ -41,7 +42,7 @@ def test_imep_cov_and_harmonics_are_those_of_sums_over_points(seed: int) -> None
     assert [*traces][7] == traces[7]
 
 
-@pytest.mark.parametrize("seed", range(5))
+@in_turn("seed", range(5))
 def test_noise_is_found_and_is_in_the_error_of_harmonics(seed: int) -> None:
     """The standard error over cycles of a constant combustion is that of noise, by its own sum."""
     noise = float(np.random.default_rng(seed).uniform(1e3, 1.5e4))
@@ -132,7 +133,7 @@ def quietly(theta: Any, pressure: Any) -> cp.Traces:  # noqa: ANN401
         return cp.Traces(theta, pressure)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_spikes_and_odd_cycles_are_named_and_nothing_else(seed: int) -> None:
     rng = np.random.default_rng(seed)
     rows = burnt(seed)

@@ -11,6 +11,7 @@ import pytest
 from crankpin.plot.style import SERIES
 from crankpin.plot.sweep import KINDS
 from matplotlib.colors import LogNorm
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -77,7 +78,7 @@ def test_every_kind_of_a_sweep_has_a_logarithmic_scale_or_says_why_not(kind: Any
     plt.close("all")
 
 
-@pytest.mark.parametrize("seed", range(5))
+@in_turn("seed", range(5))
 def test_a_logarithmic_map_has_the_peaks_of_the_linear_one(seed: int) -> None:
     rng = np.random.default_rng(seed)
     angles, speeds = np.sort(rng.uniform(20, 170, 5)), np.sort(rng.uniform(500, 6000, 4))

@@ -13,6 +13,7 @@ from crankpin.analysis.contributions import contributions
 from crankpin.plot.phasors import SUM
 from matplotlib import pyplot as plt
 from matplotlib.patches import FancyArrowPatch
+from support import in_turn
 from support.engines import I4, V6
 
 if TYPE_CHECKING:
@@ -196,7 +197,7 @@ def test_style_is_passed_on_to_the_arrows() -> None:
     assert widths == {3.0}
 
 
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("seed", range(3))
 def test_names_of_many_arrows_do_not_cover_each_other(seed: int) -> None:
     random = np.random.default_rng(seed)
     engine = cp.Engine.preset(str(random.choice(["v12-60", "v16-45", "w16", "v10-90"])))

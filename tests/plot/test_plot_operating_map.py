@@ -11,6 +11,7 @@ from crankpin._support.quantities import LOADS
 from matplotlib import pyplot as plt
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
+from support import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -98,7 +99,7 @@ def test_maps_are_shown_in_units_that_are_set() -> None:
     assert max(texts) < 0.5 * OVER_BOTH.main.max()
 
 
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("seed", range(3))
 def test_a_spectrum_has_the_amplitudes_of_gas_masses_and_sum(seed: int) -> None:
     random = np.random.default_rng(seed)
     cylinder = int(random.integers(1, 5))

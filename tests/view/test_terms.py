@@ -103,7 +103,7 @@ def test_presets(page: Page, name: str) -> None:
 
 
 @pytest.mark.slow  # a browser
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_random_engines_with_several_cranks(page: Page, seed: int) -> None:
     """With dead cylinders, offsets, rods, counterweights, shafts aside and unequal rod ratios."""
     assert_agree(page, random_engine(seed))
@@ -140,7 +140,7 @@ def vee(seed: int) -> cp.Engine:
 
 
 @pytest.mark.slow  # a browser
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_random_vees(page: Page, seed: int) -> None:
     assert_agree(page, vee(seed))
 
@@ -183,7 +183,7 @@ def loads(seed: int, cylinders: int) -> list[cp.PeriodicLoad]:
 
 
 @pytest.mark.slow  # a browser
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_random_loads(page: Page, seed: int) -> None:
     """At other speeds, bank angles and rod ratios, with gas pressure and without."""
     engine = [vee, random_engine, fired_engine][seed % 3](seed)

@@ -45,7 +45,7 @@ def test_bob_weights_by_hand() -> None:
     assert set(card.table["share"].values) == {"48, 50, 52 %", "100 %"}
 
 
-@pytest.mark.parametrize("seed", range(10))
+@in_turn("seed", range(10))
 def test_factors_that_are_rounding_apart_are_one(seed: int) -> None:
     """In the card as in the bob weights' own table, whose remarks stand at one factor."""
     rng = np.random.default_rng(seed)

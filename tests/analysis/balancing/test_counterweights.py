@@ -250,7 +250,7 @@ def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]
     assert fitted.verdicts["force"]["forward"] == fitted.verdicts["moment"]["forward"] == "vanishes"
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_one_plane_leaves_the_least_of_both(seed: int) -> None:
     """No other weight in the plane leaves less of |force|² + |moment/length|²."""
     engine, z, length = random_engine(seed).replace(reference_z=0.2), 0.9, 1.7
@@ -573,7 +573,7 @@ def test_hardware_that_spoils_an_order_is_warned_of(
 
 
 @pytest.mark.parametrize("largest", [False, True])
-@pytest.mark.parametrize("seed", range(4))
+@in_turn("seed", range(4))
 def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool) -> None:
     """SciPy's SLSQP on the same question, bounds included, and the bounds kept."""
     optimize = pytest.importorskip("scipy.optimize")

@@ -190,7 +190,7 @@ def test_receivers_are_points_names_and_motions() -> None:
         r.cancel(HEAD, ["roof"])
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> None:
     p, actuators, points = random_case(seed)
     rpm = np.array([700.0, 2000.0, 4100.0])
@@ -319,7 +319,7 @@ def test_largest_step_of_updates_that_are_late(delay: int, limit: float) -> None
         assert ((near.rate > 0.0) == stable).all()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_largest_step_is_where_roots_leave_the_unit_circle(seed: int) -> None:
     draw = np.random.default_rng(seed)
     delay, phase = int(draw.integers(0, 4)), float(draw.uniform(-80, 80))
@@ -380,7 +380,7 @@ def test_largest_gain_of_an_inertial_actuator() -> None:
     assert ", unstable: margin" in beyond.table.note
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_largest_gain_is_that_of_routh(seed: int) -> None:
     draw = np.random.default_rng(seed)
     body = (draw.uniform(50, 300), draw.uniform(4, 25), draw.uniform(0.01, 0.2))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import crankpin as cp
 import numpy as np
 import pytest
+from support import in_turn
 
 I4 = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45, bore=0.086))
 FIRED = I4.with_cycle(cp.Cycle.example())
@@ -122,7 +123,7 @@ def test_robustness() -> None:
         P.replace(mounts=[*many]).robustness()
 
 
-@pytest.mark.parametrize("seed", range(4))
+@in_turn("seed", range(4))
 def test_purity_is_searched_within_the_tolerances(seed: int) -> None:
     """Inside of the box it is less than at any corner, and no draw is less than what was found."""
     draw = np.random.default_rng(seed)

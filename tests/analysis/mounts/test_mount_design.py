@@ -13,6 +13,7 @@ import pytest
 from rederivation import decoupling
 from rederivation import mounts as again
 from scipy.spatial.transform import Rotation
+from support import in_turn
 
 I4 = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45, bore=0.086))
 TENSOR = [[7, 0.1, -0.3], [0.1, 8, -0.6], [-0.3, -0.6, 4.5]]
@@ -77,7 +78,7 @@ def test_a_torque_that_is_decoupled_shakes_in_one_mode_alone() -> None:
     assert np.abs(motion - along[:, None] * axis).max() < 1e-7 * np.abs(along).max()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_linear_equations_of_random_powertrains(seed: int) -> None:
     """Within bounds no step of one stiffness brings them nearer."""
     draw = np.random.default_rng(seed)

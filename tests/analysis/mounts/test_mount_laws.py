@@ -5,6 +5,7 @@ from __future__ import annotations
 import crankpin as cp
 import numpy as np
 import pytest
+from support import in_turn
 
 PRESETS = ("single", "i4", "v6-60", "v8-crossplane")
 
@@ -33,7 +34,7 @@ def random_case(seed: int) -> tuple[cp.Powertrain, np.ndarray]:
     return cp.Powertrain(engine, body, mounts), draw.uniform(300, 6000, 4)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_forces_moments_and_power_balance(seed: int) -> None:
     p, rpm = random_case(seed)
     r = p.response(rpm, rtol=1e-6)
@@ -55,7 +56,7 @@ def test_forces_moments_and_power_balance(seed: int) -> None:
     assert (r.power_lost >= 0.0).all()
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_load_is_the_balance_about_the_cg(seed: int) -> None:
     p, rpm = random_case(seed)
     r = p.response(rpm[0], orders=[1, 2, 4])
@@ -67,7 +68,7 @@ def test_load_is_the_balance_about_the_cg(seed: int) -> None:
     assert np.abs(r.load - expected).max() <= 1e-12 * np.abs(expected).max()
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_points_orders_and_speeds_agree_however_they_are_read(seed: int) -> None:
     p, rpm = random_case(seed)
     r = p.response(rpm, orders=[0.5, 1, 2, 4])
@@ -115,7 +116,7 @@ def moved_by_force(
     return cp.results.DrivenResponse(p, rpm, request, (pusher,), forces, engine_runs=False)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@in_turn("seed", range(8))
 def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
     """Push on the block, look at the rail; push on the rail, look at the block.
 
@@ -153,7 +154,7 @@ def test_motion_is_reciprocal_across_two_stages(seed: int) -> None:
     assert back == pytest.approx(there, rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_moments_about_a_point_are_those_of_the_balance_and_of_the_mounts(seed: int) -> None:
     p, rpm = random_case(seed)
     r = p.response(rpm, orders=[1, 2, 4])
@@ -195,7 +196,7 @@ def test_power_is_a_frame_whose_columns_balance() -> None:
     assert "passed on" in p.with_support(raft).response(rpm[0], orders=[2]).frames["power"]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_slow_motion_is_that_at_rest(seed: int) -> None:
     """Of gas pressure, whose torque does not fall with speed, on mounts with viscous damping."""
     p, _ = random_case(seed)
@@ -211,7 +212,7 @@ def test_slow_motion_is_that_at_rest(seed: int) -> None:
         assert motion == pytest.approx(load[5] * unit, rel=0, abs=1e-7 * size)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_fast_motion_is_that_of_a_free_body(seed: int) -> None:
     p, _ = random_case(seed)
     soft = [each.replace(stiffness=1e3, damping=0.0) for each in p.mounts]
@@ -254,7 +255,7 @@ def test_a_shown_response_computes_what_it_shows(monkeypatch: pytest.MonkeyPatch
     assert len(few.table) == 200
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_there_is_a_ratio_only_where_the_engine_has_a_load(seed: int) -> None:
     p, _ = random_case(seed)
     p = p.replace(engine=cp.Engine.preset(("i4", "i6", "v8-crossplane", "single")[seed % 4]))

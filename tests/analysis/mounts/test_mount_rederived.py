@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rederivation import mounts as again
 from scipy.spatial.transform import Rotation
+from support import in_turn
 
 
 def random_powertrain(seed: int, engine: cp.Engine) -> tuple[cp.Powertrain, list[again.Spring]]:
@@ -30,7 +31,7 @@ CYLINDER = cp.Cylinder(0.045, 0.14, 0.6)
 TWIN = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, 130], bank_deg=[90, 90], z=[-0.07, 0.11])
 
 
-@pytest.mark.parametrize("seed", range(6))
+@in_turn("seed", range(6))
 def test_frequencies_are_those_of_the_curvature_of_the_energy(seed: int) -> None:
     p, springs = random_powertrain(seed, TWIN)
     cg = np.array(p.body.cg)
@@ -40,7 +41,7 @@ def test_frequencies_are_those_of_the_curvature_of_the_energy(seed: int) -> None
     assert p.modes().frequency == pytest.approx(again.frequencies(mass, stiffness), rel=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("seed", range(3))
 def test_response_is_the_steady_motion_in_time(seed: int) -> None:
     p, springs = random_powertrain(seed, TWIN)
     rpm, cg = 900.0, np.array(p.body.cg)

@@ -268,10 +268,10 @@ s = cp.sweep([v8, cp.Engine.preset("i5")], rpm=[1e3, 6e3], rod_ratio=np.linspace
 digest = hashlib.sha256()
 for exact in (True, False):
     for quantity in ("force", "moment", "torque"):
-        digest.update(s.waveform(theta, exact=exact).values(quantity))
+        digest.update(np.asarray(s.waveform(theta, exact=exact).read(quantity)))
 w = v8.waveform(6000, theta_deg=np.linspace(0, 720, 100_001), orders="auto")
-digest.update(w.force)
-digest.update(v8.waveform(6000, theta_deg=np.linspace(0, 720, 100_001)).torque)
+digest.update(np.asarray(w.force))
+digest.update(np.asarray(v8.waveform(6000, theta_deg=np.linspace(0, 720, 100_001)).torque))
 print(digest.hexdigest())
 """
 

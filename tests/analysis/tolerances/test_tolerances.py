@@ -310,7 +310,7 @@ def test_orders_that_the_nominal_engine_cancels_are_kept() -> None:
     assert 0.0 < t.error_bound["force"] <= 6e-4 * scale
 
 
-@pytest.mark.parametrize("seed", range(12))
+@in_turn("seed", range(12))
 def test_what_is_left_out_is_within_its_bound_cylinder_by_cylinder(seed: int) -> None:
     random = np.random.default_rng(seed)
     count = int(random.integers(1, 7))
