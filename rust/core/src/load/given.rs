@@ -20,7 +20,7 @@ use crate::source::{
 };
 
 /// Amplitudes of some orders, ascending.
-type Amplitudes = Vec<(Order, Complex64)>;
+type OrderAmplitudes = Vec<(Order, Complex64)>;
 
 /// Force and torques as they are, at one speed of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +133,7 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
         };
         let torque = of_row(&load.torque.0);
         let mean = torque.first().filter(|(halves, _)| *halves == 0).map_or(0.0, |(_, a)| a.re);
-        let torque = |share: f64| -> Amplitudes {
+        let torque = |share: f64| -> OrderAmplitudes {
             torque
                 .iter()
                 .filter(|(_, a)| *a * share != Complex64::ZERO)
@@ -142,7 +142,7 @@ fn directed(load: &PeriodicLoad, engine: &Engine) -> Vec<(Arc<dyn Source>, Angle
         };
         let force = of_row(&load.force.0);
         let [along, ahead] = components(&force, if load.turning { ratio.halves() } else { 0 });
-        let given = |force: Amplitudes, torque: [Amplitudes; 2], mean| {
+        let given = |force: OrderAmplitudes, torque: [OrderAmplitudes; 2], mean| {
             let series = series_of(&force, &torque, mean);
             Arc::new(GivenLoad { name: Arc::clone(&name), scaling, series })
         };
@@ -176,7 +176,7 @@ fn scalings(load: &PeriodicLoad) -> Vec<(Scaling, f64)> {
 
 /// A force along a direction that turns at some halves of crank speed, along that direction and a quarter turn
 /// ahead of it, both at rest: by orders, without the mean.
-fn components(force: &[(u32, Complex64)], speed: i32) -> [Amplitudes; 2] {
+fn components(force: &[(u32, Complex64)], speed: i32) -> [OrderAmplitudes; 2] {
     let (mut along, mut across) = (Vec::new(), Vec::new());
     let speed = i64::from(speed);
     let add = |series: &mut Vec<(i64, Complex64)>, halves: i64, amplitude: Complex64| {
@@ -208,13 +208,13 @@ fn components(force: &[(u32, Complex64)], speed: i32) -> [Amplitudes; 2] {
 }
 
 /// The series of a force and of torques on the block and on the main crank.
-fn series_of(force: &Amplitudes, torque: &[Amplitudes; 2], mean: [f64; 2]) -> Series {
+fn series_of(force: &OrderAmplitudes, torque: &[OrderAmplitudes; 2], mean: [f64; 2]) -> Series {
     let [roll, crank] = torque;
     let all = [force, roll, crank].into_iter().flatten().map(|(order, _)| *order);
     let mut orders: Vec<Order> = all.collect();
     orders.sort_unstable();
     orders.dedup();
-    let at = |amplitudes: &Amplitudes| {
+    let at = |amplitudes: &OrderAmplitudes| {
         let own = |order| amplitudes.binary_search_by_key(order, |(own, _)| *own);
         let value = |order| own(order).map_or(Complex64::ZERO, |k| amplitudes[k].1);
         orders.iter().map(value).collect()

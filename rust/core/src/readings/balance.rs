@@ -82,7 +82,7 @@ struct OfOrder {
     parts: Vec<Wrench>,
 }
 
-/// Bounds of what is left out.
+/// Bounds of what orders add, or of what is left out; of groups of loads over what they scale with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorBounds {
     /// To the shaking force, N.
@@ -100,14 +100,29 @@ impl ErrorBounds {
         [self.force, self.moment, self.torque]
     }
 
+    /// What an order adds at most.
+    pub(super) fn of(Wrench { force, moment, torque }: &Wrench) -> Self {
+        Self::from([force.peak(), moment.peak(), torque.peak()])
+    }
+
     /// The larger of both.
     #[must_use]
     pub fn max(self, other: Self) -> Self {
-        Self {
-            force: self.force.max(other.force),
-            moment: self.moment.max(other.moment),
-            torque: self.torque.max(other.torque),
-        }
+        self.with(other, f64::max)
+    }
+
+    /// The sum of both.
+    pub(super) fn plus(self, other: Self) -> Self {
+        self.with(other, |own, other| own + other)
+    }
+
+    pub(super) fn times(self, factor: f64) -> Self {
+        Self::from(self.values().map(|bound| bound * factor))
+    }
+
+    fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.values(), other.values());
+        Self::from([of(a, d), of(b, e), of(c, f)])
     }
 
     /// The same about a point this far away along x, y and z, m: at most force times distance is added.
@@ -117,6 +132,12 @@ impl ErrorBounds {
     pub fn moved(self, [x, y, z]: [f64; 3]) -> Self {
         let Self { force, moment, torque } = self;
         Self { force, moment: moment + z.abs() * force, torque: torque + x.hypot(y) * force }
+    }
+}
+
+impl From<[f64; 3]> for ErrorBounds {
+    fn from([force, moment, torque]: [f64; 3]) -> Self {
+        Self { force, moment, torque }
     }
 }
 

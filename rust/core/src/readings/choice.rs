@@ -40,7 +40,7 @@ pub(crate) struct Chosen {
     /// Mean torques of each group on the block and on the crank.
     means: List<GroupIndex, [f64; 2]>,
     /// Bounds of what all orders left out add, of each group.
-    left_out: List<GroupIndex, OrderSums>,
+    left_out: List<GroupIndex, ErrorBounds>,
 }
 
 impl Chosen {
@@ -73,51 +73,12 @@ impl Chosen {
     }
 }
 
-/// What orders of a group add, or may leave out, over what it scales with.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct OrderSums {
-    pub force: f64,
-    pub moment: f64,
-    /// Torque, on the block or on the crank.
-    pub torque: f64,
-}
-
-impl OrderSums {
-    /// What an order adds at most.
-    pub fn of(wrench: &Wrench) -> Self {
-        let Wrench { force, moment, torque } = wrench;
-        Self { force: force.peak(), moment: moment.peak(), torque: torque.peak() }
-    }
-
-    /// The larger of each.
-    pub fn max(self, other: Self) -> Self {
-        let larger = |(own, other): (f64, f64)| own.max(other);
-        let [force, moment, torque] =
-            [(self.force, other.force), (self.moment, other.moment), (self.torque, other.torque)]
-                .map(larger);
-        Self { force, moment, torque }
-    }
-
-    /// Side by side.
-    fn values(self) -> [f64; 3] {
-        [self.force, self.moment, self.torque]
-    }
-
-    fn from_values([force, moment, torque]: [f64; 3]) -> Self {
-        Self { force, moment, torque }
-    }
-}
-
 /// Bounds at a speed, rad/s, of what groups leave out.
-pub(crate) fn bounds(left_out: &[OrderSums], groups: &[Group], omega: f64) -> ErrorBounds {
-    let mut sum = ErrorBounds::default();
-    for (lost, group) in left_out.iter().zip(groups) {
-        let factor = group.scaling.factor(omega);
-        sum.force += lost.force * factor;
-        sum.moment += lost.moment * factor;
-        sum.torque += lost.torque * factor;
-    }
-    sum
+pub(crate) fn bounds(left_out: &[ErrorBounds], groups: &[Group], omega: f64) -> ErrorBounds {
+    let groups = left_out.iter().zip(groups);
+    groups.fold(ErrorBounds::default(), |sum, (lost, group)| {
+        sum.plus(lost.times(group.scaling.factor(omega)))
+    })
 }
 
 /// An engine whose orders are chosen: its loads, their sources, of which tolerances are parts, and the same where
@@ -135,7 +96,7 @@ pub(crate) struct Choice {
     /// Series of the sources of each engine up to these orders.
     pub series: Vec<KnownSeries>,
     /// Bounds of what orders above those add, of each engine and group.
-    pub rest: Vec<List<GroupIndex, OrderSums>>,
+    pub rest: Vec<List<GroupIndex, ErrorBounds>>,
     /// What may be left out, of each engine and group.
     allowed: Vec<f64>,
 }
@@ -165,8 +126,8 @@ impl Choice {
 
     /// Which orders are kept, of sizes of each order, engine and group, and bounds of what each engine
     /// leaves out, by group.
-    pub fn few(&self, sizes: &[OrderSums]) -> (Vec<bool>, Vec<List<GroupIndex, OrderSums>>) {
-        let flat = |sums: &[OrderSums]| -> Vec<f64> {
+    pub fn few(&self, sizes: &[ErrorBounds]) -> (Vec<bool>, Vec<List<GroupIndex, ErrorBounds>>) {
+        let flat = |sums: &[ErrorBounds]| -> Vec<f64> {
             sums.iter().flat_map(|sums| sums.values()).collect()
         };
         let sizes = flat(sizes);
@@ -174,7 +135,7 @@ impl Choice {
             self.rest.iter().flatten().flat_map(|sums| sums.values()).collect();
         let of_orders: Vec<&[f64]> = sizes.chunks(self.allowed.len()).collect();
         let kept = few(&of_orders, &self.allowed, &mut lost);
-        let mut lost = lost.as_chunks().0.iter().map(|&lost| OrderSums::from_values(lost));
+        let mut lost = lost.as_chunks().0.iter().map(|&lost| ErrorBounds::from(lost));
         (kept, self.rest.iter().map(|of| lost.by_ref().take(of.len()).collect()).collect())
     }
 }
@@ -203,7 +164,7 @@ fn evaluated_anew(loads: &Scene, orders: &Orders, torque: bool, cancel: &Cancel)
             order::check_list(orders)?;
             let sources = (&loads.sources, &KnownSeries::default());
             let (wrenches, means) = wrenches(loads, sources, torque, orders, cancel)?;
-            let left_out = loads.groups.map_to(|_| OrderSums::default());
+            let left_out = loads.groups.map_to(|_| ErrorBounds::default());
             let kept = vec![true; orders.len()];
             Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
         }
@@ -218,7 +179,7 @@ pub(crate) fn within(rtol: f64, loads: &Scene, torque: bool, cancel: &Cancel) ->
     let choice = Choice::new(rtol, &[alone], torque, cancel)?;
     let sources = (&loads.sources, &choice.series[0]);
     let (wrenches, means) = wrenches(loads, sources, torque, &choice.orders, cancel)?;
-    let sizes: Vec<OrderSums> = wrenches.iter().map(OrderSums::of).collect();
+    let sizes: Vec<ErrorBounds> = wrenches.iter().map(ErrorBounds::of).collect();
     let (kept, mut left_out) = choice.few(&sizes);
     let left_out = left_out.swap_remove(0);
     Ok(Chosen { orders: choice.orders, kept, wrenches, means, left_out })
@@ -237,7 +198,7 @@ pub(crate) fn within_each(
         loads.list.iter().copied().partition(Load::is_turning);
     let mut orders =
         turning.iter().map(|load| load.place.ratio.order()).collect::<Result<Vec<_>>>()?;
-    let mut left_out = loads.groups.map_to(|_| OrderSums::default());
+    let mut left_out = loads.groups.map_to(|_| ErrorBounds::default());
     let (origins, by_origin) = distinct::<usize, _>(others.iter().map(|load| load.place.origin));
     for origin in origins.indices() {
         let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
@@ -246,9 +207,7 @@ pub(crate) fn within_each(
         let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
         orders.extend(kept.map(|(order, _)| *order));
         for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
-            let sums = sum.values().into_iter().zip(lost.values()).map(|(sum, lost)| sum + lost);
-            let mut all = sums;
-            *sum = OrderSums::from_values(std::array::from_fn(|_| all.next().unwrap_or(0.0)));
+            *sum = sum.plus(*lost);
         }
     }
     orders.sort_unstable();
@@ -387,8 +346,8 @@ pub(crate) fn sum_of_rests(
     loads: &Scene,
     rests: &List<SourceIndex, Tail>,
     torque: bool,
-) -> List<GroupIndex, OrderSums> {
-    let mut sums = loads.groups.map_to(|_| OrderSums::default());
+) -> List<GroupIndex, ErrorBounds> {
+    let mut sums = loads.groups.map_to(|_| ErrorBounds::default());
     for load in &loads.list {
         let (place, rest) = (&load.place, rests[load.source]);
         let square = place.speed_squared();
@@ -412,7 +371,7 @@ pub(crate) fn times(weight: f64, bound: f64) -> f64 {
 /// What a tolerance is relative to, of a group over what it scales with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct GroupScale {
-    sums: OrderSums,
+    sums: ErrorBounds,
     /// Smallest tolerance of the torque that counts.
     least: f64,
     /// Sum of the weights of torques.
@@ -486,7 +445,7 @@ mod tests {
         Ok(orders)
     }
 
-    fn rests_of(loads: &Scene, orders: &[u32]) -> List<GroupIndex, OrderSums> {
+    fn rests_of(loads: &Scene, orders: &[u32]) -> List<GroupIndex, ErrorBounds> {
         let evaluated = Order::all_whole(orders).unwrap();
         let mut known = loads.sources.map_to(|_| Series::default());
         let rests =
@@ -498,7 +457,7 @@ mod tests {
         series(source, UpTo::Halves(2 * order), &Cancel::new()).unwrap().rest
     }
 
-    fn sums_of(loads: &Scene) -> OrderSums {
+    fn sums_of(loads: &Scene) -> ErrorBounds {
         scales(loads, &loads.sources, true)[GroupIndex::default()].sums
     }
 
@@ -516,7 +475,7 @@ mod tests {
             let engine = Engine::new("", "", vec![place]).unwrap();
             let loads = Scene::anew(&engine, 0.0);
             // Against a scale of its own a heavier rod takes more orders.
-            let sums = OrderSums { force: 1e9, moment: 1e9, torque: 4.0 };
+            let sums = ErrorBounds { force: 1e9, moment: 1e9, torque: 4.0 };
             let scales = List::new(vec![GroupScale { sums, ..GroupScale::default() }]);
             let orders = orders_of(1e-6, &scales, &loads, true).unwrap();
             let highest = *orders.last().unwrap();
@@ -577,7 +536,7 @@ mod tests {
             let square = f64::from(speed * speed);
             let force = square * on_main.force;
             let inertia = square * f64::from(speed) * on_main.torque + 0.5 * force;
-            let expected = OrderSums { force, moment: 0.2 * force, torque: inertia };
+            let expected = ErrorBounds { force, moment: 0.2 * force, torque: inertia };
             for (found, expected) in found.values().into_iter().zip(expected.values()) {
                 assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
             }
@@ -636,7 +595,7 @@ mod tests {
                 let mut sums = [0.0; 3];
                 let mut of_kept = Vec::new();
                 for (order, wrench) in all.iter().zip(&every) {
-                    let sizes = OrderSums::of(wrench).values();
+                    let sizes = ErrorBounds::of(wrench).values();
                     if kept.contains(order) {
                         of_kept.push(sizes);
                     } else {
@@ -668,7 +627,7 @@ mod tests {
         let engine = crate::load::tests::fired([Some(0); 3]).0;
         let loads = Scene::anew(&engine, 0.0);
         assert_eq!(loads.groups.len(), 2);
-        let of = |k: f64| OrderSums { force: k, moment: 2.0 * k, torque: 3.0 * k };
+        let of = |k: f64| ErrorBounds { force: k, moment: 2.0 * k, torque: 3.0 * k };
         let found = bounds(&[of(1.0), of(10.0)], &loads.groups, 5.0).values();
         let factors = [0, 1].map(|k| loads.groups[GroupIndex::new(k)].scaling.factor(5.0));
         assert_eq!(factors.iter().sum::<f64>(), 26.0);
@@ -747,7 +706,7 @@ mod tests {
         let torque = scales_of(&rod).torque;
         assert!((torque / (0.01 / 3.0) - 1.0).abs() < 0.1, "{torque}");
         let spectrum = crate::Spectrum::new([(1, 0.02.into()), (2, 0.005.into())]).unwrap();
-        let OrderSums { force, moment, .. } = scales_of(&rod.with_spectrum(spectrum));
+        let ErrorBounds { force, moment, .. } = scales_of(&rod.with_spectrum(spectrum));
         assert!((force - 0.02).abs() < 1e-16 && (moment - 0.15 * 0.02).abs() < 1e-16);
     }
 

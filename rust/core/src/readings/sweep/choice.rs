@@ -37,9 +37,8 @@ use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
-use crate::readings::choice::{
-    Candidate, Choice, OrderSums, bounds, rest, rests, sum_of_rests, times,
-};
+use crate::readings::balance::ErrorBounds;
+use crate::readings::choice::{Candidate, Choice, bounds, rest, rests, sum_of_rests, times};
 use crate::readings::quantity::{Kind, Part, Quantity};
 use crate::source::{Column, Point, Series, Source, amplitudes, at_point};
 
@@ -78,7 +77,7 @@ impl Sweep {
         }
         sweep.orders.clone_from(&choice.orders);
         // By order, engine and group.
-        let mut sizes: Vec<Vec<OrderSums>> = vec![Vec::new(); sweep.orders.len()];
+        let mut sizes: Vec<Vec<ErrorBounds>> = vec![Vec::new(); sweep.orders.len()];
         let mut known = Known::new();
         let is_one_point = sweep.axes.bank_angle.is_none() && sweep.points() == 1;
         let mut layouts = Vec::new();
@@ -89,7 +88,7 @@ impl Sweep {
                 let sources = (&**slowest, series);
                 let (all, _) = wrenches(loads, sources, sweep.torque, &sweep.orders, cancel)?;
                 for (sizes, of_order) in sizes.iter_mut().zip(all.chunks(loads.groups.len())) {
-                    sizes.extend(of_order.iter().map(OrderSums::of));
+                    sizes.extend(of_order.iter().map(ErrorBounds::of));
                 }
                 continue;
             }
@@ -111,7 +110,7 @@ impl Sweep {
                 let selections: Vec<Selection> = selected.iter().map(|(_, one)| *one).collect();
                 layouts = sweep.layouts(&sweep.engines[k / nodes], loads, &selections)?;
             }
-            let mut of_engine = vec![loads.groups.map_to(|_| OrderSums::default()); sizes.len()]; // bounded: orders
+            let mut of_engine = vec![loads.groups.map_to(|_| ErrorBounds::default()); sizes.len()]; // bounded: orders
             for ((group, selection), layout) in selected.into_iter().zip(&layouts) {
                 let largest = sweep.largest(layout, slowest, selection, &mut known, cancel)?;
                 for (sums, size) in of_engine.iter_mut().zip(largest) {
@@ -121,7 +120,7 @@ impl Sweep {
             }
             sizes.iter_mut().zip(&of_engine).for_each(|(sizes, sums)| sizes.extend(&**sums));
         }
-        let flat: Vec<OrderSums> = sizes.iter().flatten().copied().collect();
+        let flat: Vec<ErrorBounds> = sizes.iter().flatten().copied().collect();
         let (kept, left_out) = choice.few(&flat);
         for (lost, candidate) in left_out.iter().zip(&candidates) {
             for &omega in &sweep.omegas {
@@ -133,7 +132,7 @@ impl Sweep {
         for ((order, kept), sizes) in choice.orders.into_iter().zip(kept).zip(sizes) {
             if kept {
                 sweep.orders.push(order);
-            } else if sizes.iter().any(|&size| size != OrderSums::default()) {
+            } else if sizes.iter().any(|&size| size != ErrorBounds::default()) {
                 sweep.omitted.push(order);
             }
         }
@@ -149,7 +148,7 @@ impl Sweep {
         Candidate { loads, sources, .. }: &Candidate,
         known: &mut KnownSeries,
         orders: &[Order],
-        most: &mut List<GroupIndex, OrderSums>,
+        most: &mut List<GroupIndex, ErrorBounds>,
         cancel: &Cancel,
     ) -> Result<()> {
         let varies = |source: &Arc<dyn Source>| -> Result<bool> {
@@ -165,7 +164,7 @@ impl Sweep {
             return Ok(());
         }
         let mut rests = rests(loads, sources, known, orders, self.torque, cancel)?;
-        *most = loads.groups.map_to(|_| OrderSums::default());
+        *most = loads.groups.map_to(|_| ErrorBounds::default());
         for point in 0..self.points() {
             cancel.check()?;
             let all = sources.iter().zip(rests.iter_mut()).zip(&varying);
@@ -295,7 +294,7 @@ fn span(parts: &[BanksTurned; 2], rounding: f64) -> f64 {
 
 impl Selection<'_> {
     /// The sum that it counts for.
-    fn of<'s>(&self, sums: &'s mut OrderSums) -> &'s mut f64 {
+    fn of<'s>(&self, sums: &'s mut ErrorBounds) -> &'s mut f64 {
         match self.quantity.kind {
             Kind::Force => &mut sums.force,
             Kind::Moment => &mut sums.moment,
