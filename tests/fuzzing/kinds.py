@@ -301,12 +301,13 @@ KINDS: dict[str, list[Any]] = {
     "load.path": list(files()),
     "q": [0.5],
     "tidy.columns": ["pressure"],
+    "sel.order": [1, 2],
     "plot.numbers": [[1]],
     "plot.frame": ["table"],
     "plot.quantity": ["moment", "main", "velocity"],
     "objectives": ["total.moment.peak"],
     "quantities": ["force"],
-    "quantity": ["moment"],
+    "quantity": ["moment", "main", "velocity", "body_force", "crank_torque"],
     "row_units": [["", ""]],
     "header": [["a", "b"]],
     "labels": [["a", "b"]],
@@ -334,6 +335,7 @@ KINDS: dict[str, list[Any]] = {
 
 KEYWORDS: dict[str, dict[str, Any]] = {
     "selection": {"rpm": 1000.0},
+    "coordinates": {"order": 2},
     "answers": {"bob_weight": 1.0, "force": 100.0},
 }
 SEEDS: list[Any] = [

@@ -186,3 +186,16 @@ def test_the_total_is_the_peak_over_a_cycle_of_all_orders(name: str) -> None:
         most = np.asarray(quantity.peak).sum(axis=quantity._dims_of("peak").index("order")) + mean
         assert np.all(peaks >= (largest - mean) * (1.0 - 1e-9)), quantity.name
         assert np.all(peaks <= most * (1.0 + 1e-9)), quantity.name
+
+
+@every_object
+def test_a_selection_of_a_result_is_that_of_its_quantities(name: str) -> None:
+    for result, quantity in labelled(name):
+        if type(result).sel is not Labelled.sel:
+            continue  # a balance, a sweep or a response, with tests of their own
+        for dim in {*result.dims, *result._along} & {*quantity.dims}:
+            value = list(quantity.coords[dim])[-1]
+            one = result.sel(**{dim: value})[quantity.name]
+            np.testing.assert_array_equal(one, quantity.sel(**{dim: value}))
+        with pytest.raises(cp.InputError, match=r"^dimension = 'flavour'"):
+            result.sel(flavour=1)

@@ -260,28 +260,31 @@ class Labelled(Tabled):
 
     # --- selection and export -------------------------------------------------------------------
 
-    def sel(self, **selection: object) -> Any:  # noqa: ANN401 - more of some results
+    def sel(self, **coordinates: object) -> Any:  # noqa: ANN401 - more of some results
         """Return the quantities at values of coordinates.
 
         Parameters
         ----------
-        **selection : dict, optional
-            A value for some dimensions of ``coords``.
+        **coordinates : dict, optional
+            A value for some dimensions of ``coords``, or an ``order``.
 
         Returns
         -------
         mapping of str to Quantity
-            Name → quantity without these dimensions.
+            Name → quantity without these dimensions, as far as it has them.
 
         Raises
         ------
         InputError
             If there is no such dimension, or the value is not among its coordinates.
         """
-        for name in selection:
-            inputs.one_of("dimension", name, self.dims)
+        for name in coordinates:
+            inputs.one_of("dimension", name, dict.fromkeys((*self.dims, *self._along)))
         return MappingProxyType(
-            {name: quantity.sel(**selection) for name, quantity in self.quantities.items()}
+            {
+                name: whole.sel(**{d: at for d, at in coordinates.items() if d in whole.dims})
+                for name, whole in self.quantities.items()
+            }
         )
 
     def _chosen(self, quantities: tuple[str, ...]) -> tuple[str, ...]:

@@ -516,12 +516,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
             hint = f"give an index, or a name ({inputs.reason(error)})"
             raise inputs.rejected("index", key, hint, AbsentItemError) from None
 
-    def sel(self, **selection: object) -> Quantity[Element, Any, Any]:
+    def sel(self, **coordinates: object) -> Quantity[Element, Any, Any]:
         """Return the quantity at values of coordinates.
 
         Parameters
         ----------
-        **selection : dict, optional
+        **coordinates : dict, optional
             A value for some of ``dims``: ``rpm=3000``, ``axis="x"``, ``cylinder=1``.
 
         Returns
@@ -542,7 +542,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         True
         """
         found, coords = self, self.coords
-        for name, value in selection.items():
+        for name, value in coordinates.items():
             values = coords[inputs.one_of("dimension", name, self.dims)]
             if name == "order":
                 place = self._place(value)
@@ -574,7 +574,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
             raise inputs.rejected(f"operands of {ufunc.__name__}", arguments, hint) from None
 
     def __pow__(self, exponent: Any) -> Any:  # noqa: ANN401 - as arrays: squares are products
-        return np.asarray(self) ** exponent
+        array = np.asarray(self)
+        try:
+            return array**exponent
+        except (ValueError, OverflowError) as error:
+            hint = f"give numbers, or an array that broadcasts ({inputs.reason(error)})"
+            raise inputs.rejected("exponent", exponent, hint) from None
 
     def __array_function__(
         self,
