@@ -542,7 +542,7 @@ class Objectives:
         variables: Sequence[tuple[Sequence[float], Sequence[float]]],
         objectives: Sequence[tuple[str, str, int | None]],
         orders: Sequence[float],
-        removed: Sequence[int],
+        removed: Sequence[float],
     ) -> Objectives: ...
     @property
     def weights(self) -> list[float]: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -68,6 +68,44 @@ def wait(page: Page, condition: str) -> None:
             return
         time.sleep(0.02)
     pytest.fail(f"waited in vain for {condition}")
+
+
+def two_strokes(**changes: Any) -> cp.Engine:  # noqa: ANN401 - of Engine.replace
+    engine = cp.Engine.inline(
+        CYLINDER, throws_deg=[0, 120, 240], spacing=0.1, strokes=2, firing_order="1-3-2"
+    )
+    return engine.replace(**changes)
+
+
+CAMSHAFT = cp.Shaft("1/2", [cp.Unbalance(0.001, z=0.1)], x=0.1, y=0.2)
+
+
+@pytest.mark.parametrize(
+    ("engine", "turns"),
+    [
+        (two_strokes(), 1),
+        (two_strokes(loads=[cp.PeriodicLoad("pump", on="block", torque={2: 5})]), 1),
+        (two_strokes(loads=[cp.PeriodicLoad("pump", on="block", torque={1.5: 5})]), 2),
+        (two_strokes(shafts=[CAMSHAFT]), 2),
+        (two_strokes(shafts=[CAMSHAFT.replace(ratio=-2)]), 1),
+        (V8, 2),
+    ],
+    ids=["bare", "whole", "halves", "camshaft", "shaft", "four strokes"],
+)
+def test_shows_all_turns_after_which_the_engine_repeats(
+    open_engine: Open, engine: cp.Engine, turns: int
+) -> None:
+    page = open_engine(engine)
+    slider = page.locator(".transport > input[type=range]")
+    assert slider.get_attribute("max") == f"{360 * turns}"
+    for typed, within in [(350, 350), (360 * turns + 10, 10), (360 * turns - 20, 360 * turns - 20)]:
+        page.evaluate("(angle) => crankpin.set({ angle_deg: angle })", typed)
+        assert slider.input_value() == f"{within}"
+    ticks = page.locator(".timeline .degrees").all_text_contents()
+    assert ticks[-1] == f"{360 * turns}°"
+    # A mark of each cylinder's firing in each cycle.
+    fires = page.locator(".timeline .fires").get_attribute("d") or ""
+    assert fires.count("M") == len(engine) * 2 * turns // engine.strokes
 
 
 # --- one file -----------------------------------------------------------------------------------

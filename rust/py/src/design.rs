@@ -3,12 +3,12 @@
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::design::{Objective, ObjectiveFigure, ObjectiveQuantity, Variable};
-use crankpin_core::{Order, SpeedRatio, memory};
+use crankpin_core::{Order, memory};
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::OrRaise;
+use crate::convert::{OrRaise, RatioNumber, ratio};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -31,7 +31,7 @@ impl Objectives {
         variables: Vec<(Vec<f64>, Vec<f64>)>,
         objectives: Vec<(String, String, Option<u32>)>,
         orders: Vec<u32>,
-        removed: Vec<i32>,
+        removed: Vec<RatioNumber>,
     ) -> PyResult<Self> {
         let variables: Vec<Variable> =
             variables.into_iter().map(|(bores, pins)| Variable { bores, pins }).collect();
@@ -58,6 +58,7 @@ impl Objectives {
             })
             .collect::<PyResult<Vec<_>>>()?;
         let orders = Order::all_whole(&orders).or_raise()?;
+        let removed = removed.into_iter().map(ratio).collect::<PyResult<Vec<_>>>()?;
         let engine = &engine.get().0;
         let merit = interrupt::run(py, |cancel| {
             core::design::Objectives::new(
@@ -65,7 +66,7 @@ impl Objectives {
                 &variables,
                 &objectives,
                 &orders,
-                &removed.into_iter().map(SpeedRatio::whole).collect::<Vec<_>>(),
+                &removed,
                 cancel,
             )
         })?;

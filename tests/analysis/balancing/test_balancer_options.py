@@ -36,6 +36,81 @@ def least(engine: cp.Engine, **targets: float) -> str | None:
     return None if found is None else found.name
 
 
+HALVES = (-1.5, -0.5, 0.5, 1.5)
+
+
+def half_speed(seed: int) -> cp.Engine:
+    """Return an engine with loads that turn at halves of crank speed, and shafts that do."""
+    random = np.random.default_rng(seed)
+    z = [0.0, 0.1, 0.2, 0.3]
+    loads = [
+        cp.PeriodicLoad(
+            f"gear {ratio}", on="block", force={0: random.choice([100.0, 300.0])},
+            turning=True, ratio=ratio, rpm=RPM, scaling="speed squared", z=random.choice(z),
+        )
+        for ratio in random.choice(HALVES, 3)
+    ]  # fmt: skip
+    shafts = [
+        Shaft(ratio, [Unbalance(0.002, random.choice(z), 90 * random.integers(4))])
+        for ratio in random.choice(HALVES, 2)
+    ]
+    return I4.with_loads(loads).with_shafts(shafts)
+
+
+def turning_parts(engine: cp.Engine, ratio: float) -> list[complex]:
+    """Sum force and moment that turn with a shaft, over ω², by hand: pistons make whole orders."""
+    middle = np.mean([engine.z.min(), engine.z.max()])
+    parts = [
+        (load.force[0] / (np.pi * RPM / 30.0) ** 2, load.z)
+        for load in engine.loads
+        if load.ratio == ratio
+    ]
+    parts += [
+        (ratio**2 * u.amount * np.exp(1j * np.radians(float(u.angle_deg))), u.z)
+        for shaft in engine.shafts
+        for u in shaft.unbalances
+        if shaft.ratio == ratio
+    ]
+    return [sum(part for part, _ in parts), sum(1j * (z - middle) * part for part, z in parts)]
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("ratio", HALVES)
+def test_shafts_at_halves_remove_what_turns_with_them(seed: int, ratio: float) -> None:
+    engine = half_speed(seed)
+    options = cp.balancer_options(
+        engine, RPM, shaft_orders=[abs(ratio)], counterweights=False, places={ratio: (0.1, 0.2)}
+    )
+    alone = [each for each in options if {shaft.ratio for shaft in each.shafts} == {ratio}]
+    parts, middle = turning_parts(engine, ratio), np.mean([engine.z.min(), engine.z.max()])
+    tiny = 1e-12 * CYLINDER.reciprocating_mass * CYLINDER.crank_radius
+    assert bool(alone) == (max(map(abs, parts)) > tiny)
+    # One set, or those that remove force and moment, force alone or moment alone.
+    removed = []
+    for option in alone:
+        (shaft,) = option.shafts
+        assert (shaft.x, shaft.y) == (0.1, 0.2)
+        turning = [
+            (ratio**2 * u.amount * np.exp(1j * np.radians(float(u.angle_deg))), u.z - middle)
+            for u in shaft.unbalances
+        ]
+        sums = [sum(u for u, _ in turning), sum(1j * z * u for u, z in turning)]
+        removed.append(np.allclose(sums, np.negative(parts), rtol=1e-9, atol=tiny))
+    assert sum(removed) == bool(alone)
+
+
+@pytest.mark.parametrize("name", ["-3/2", -1.5])
+def test_places_of_shafts_at_halves_are_named_as_ratios_are(name: str | float) -> None:
+    engine = I4.with_shafts([Shaft("-3/2", [Unbalance(0.002, 0.1)])])
+    options = cp.balancer_options(
+        engine, RPM, shaft_orders=[1.5], places={name: (0.1, None)}, counterweights=False
+    )
+    shafts = {shaft for each in options for shaft in each.shafts}
+    assert shafts
+    assert all((shaft.ratio, shaft.x) == (-1.5, 0.1) for shaft in shafts)
+    assert "shaft −1.5" in [each.name for each in options]
+
+
 # --- known answers --------------------------------------------------------------------------------
 
 
@@ -286,7 +361,7 @@ def test_the_long_form_has_all_sets() -> None:
         ({"relative": 1}, "^relative = 1: give True or False"),
         ({"counterweights": None}, "^counterweights = None: give True or False"),
         ({"shaft_orders": 0}, "^shaft_orders = 0"),
-        ({"shaft_orders": "auto"}, "^shaft_orders = .auto.: give whole numbers"),
+        ({"shaft_orders": "auto"}, "^shaft_orders = .auto.: give numbers"),
         ({"most_shafts": -1}, "^most_shafts = -1: give 0 or more"),
         ({"places": 3}, "^places = 3: give a mapping"),
         ({"places": {-1: (1, 2, 3)}}, r"^places\[-1\] = \(1, 2, 3\): give a mapping"),

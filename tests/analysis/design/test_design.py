@@ -294,6 +294,14 @@ def test_a_v6_needs_one_shaft_of_order_2() -> None:
     assert [shaft.ratio for shaft in found[0].engine.shafts] == [-2]
 
 
+def test_shafts_at_halves_find_nothing_to_remove_beside_pistons() -> None:
+    given: dict[str, Any] = {"by": "[2].moment.peak", "throws_deg": [0, 120, 250]}
+    given |= {"bank_angle_deg": 77}
+    plain, halves = (design(6, **given, shafts=shafts) for shafts in ([-2], ["-2", "3/2", -0.5]))
+    assert [shaft.ratio for shaft in halves[0].engine.shafts] == [-2, 1.5, -0.5]
+    assert [each.values for each in halves] == [each.values for each in plain]
+
+
 def test_shafts_are_fitted_anew_at_other_bank_angles() -> None:
     given: dict[str, Any] = {"by": "[2].moment.peak", "shafts": [-2], "throws_deg": [0, 120, 250]}
     found = design(6, bank_angle_deg=77, **given)

@@ -25,6 +25,13 @@ RNG = np.random.default_rng(5)
 I3, I4 = cp.Engine.preset("i3"), cp.Engine.preset("i4")
 V6 = cp.Engine.preset("v6-60").replace(rotating_mass=0.4)
 BOXER = cp.Engine.preset("boxer-4")
+PUMP = cp.PeriodicLoad(
+    "pump", on="block", force={1: 40, 2: 25j}, scaling="speed squared", rpm=3000, z=0.3, cylinder=2
+)
+SPRINGS = cp.PeriodicLoad("springs", on="block", force={1: 900}, torque={0.5: 30}, z=0.1)
+FIRED = cp.Engine.preset("i4", cylinder=I4.cylinders[0].replace(bore=0.086)).with_cycle(
+    cp.Cycle.example()
+)
 
 
 def masses(count: int, mean: float = 0.4) -> NDArray[np.float64]:
@@ -46,7 +53,12 @@ def remains(engine: cp.Engine, orders: tuple[int, ...] = (1, 2)) -> float:
 # --- one engine ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("engine", [I3, I4, BOXER, V6], ids=["i3", "i4", "boxer", "v6"])
+LOADED = [I4.with_loads([PUMP]), FIRED.with_loads([PUMP])]
+
+
+@pytest.mark.parametrize(
+    "engine", [I3, I4, BOXER, V6, *LOADED], ids=["i3", "i4", "boxer", "v6", "loaded", "fired"]
+)
 def test_the_best_of_all_arrangements_is_found(engine: cp.Engine) -> None:
     pistons = masses(len(engine))
     match = cp.match_parts(engine, pistons)
@@ -64,6 +76,30 @@ def test_the_best_of_all_arrangements_is_found(engine: cp.Engine) -> None:
     assert match.value == pytest.approx(best, rel=1e-9, abs=1e-15)
     assert remains(match.engines[0]) == pytest.approx(match.value, rel=1e-9, abs=1e-15)
     assert match.value <= match.initial_value
+
+
+@pytest.mark.parametrize("by", ["balance", "spread"])
+def test_loads_that_do_not_scale_with_inertia_change_no_assignment(by: matching.Objective) -> None:
+    pistons, ends = masses(5), rods(4)
+    with_pump = FIRED.with_loads([PUMP])
+    matches = [
+        cp.match_parts(engine, pistons, ends, by=by)
+        for engine in (with_pump, with_pump.with_loads([SPRINGS, PUMP]))
+    ]
+    assert matches[0].assignment == matches[1].assignment
+    assert matches[0].value == matches[1].value
+    assert matches[1].engines[0].loads == (SPRINGS, PUMP)
+
+
+@pytest.mark.parametrize("spacing", [0.08, 0.09, 0.1, 0.11])
+@pytest.mark.parametrize("unit", [1.0, 1.0 + 2**-51])
+def test_of_an_arrangement_and_its_mirror_image_the_first_is_chosen(
+    spacing: float, unit: float
+) -> None:
+    engine = I4.replace(z=spacing * unit * np.arange(4), reference_z=None)
+    for pistons in ([0.402, 0.398, 0.405, 0.401], [0.401, 0.405, 0.398, 0.402]):
+        match = cp.match_parts(engine, np.array(pistons) * unit, orders=[1])
+        assert match.assignment[0].pistons == (1, 3, 2, 4)
 
 
 @pytest.mark.parametrize("spare", [0, 1])
@@ -307,6 +343,8 @@ def test_progress_is_reported_and_all_of_twelve_pistons_are_compared(
 @in_turn("seed", range(30))
 def test_influences_are_what_a_kilogram_more_adds_to_the_whole_engine(seed: int) -> None:
     engine = random_engine(seed)
+    if seed % 2:
+        engine = engine.with_loads([PUMP.replace(cylinder=None), SPRINGS])
     count, cylinders = len(engine), engine.cylinders
     parts = matching.MeasuredParts(engine, np.ones(count), np.ones((count, 2)), (1, 2, 3, 4))
     _, rods_ = parts.kinds

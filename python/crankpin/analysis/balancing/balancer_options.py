@@ -6,7 +6,7 @@ import dataclasses
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders
+    from crankpin._support.inputs import Order, Orders
     from crankpin.analysis.balancing.balance_shafts import Remove
     from crankpin.analysis.balancing.planes import Place, Planes, Turning
     from crankpin.analysis.ranking.objectives import Measure, Objective
@@ -55,11 +55,11 @@ def balancer_options(
     by: str | Measure | Sequence[str | Measure] = DEFAULT,
     target: float | Mapping[str, float] | None = None,
     relative: bool = False,
-    shaft_orders: int | Sequence[int] = (1, 2),
+    shaft_orders: Order | Sequence[Order] = (1, 2),
     most_shafts: int = 4,
     counterweights: bool = True,
     planes: Planes = "ends",
-    places: Mapping[int, tuple[float | None, float | None]] | None = None,
+    places: Mapping[Any, Axis] | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
 ) -> BalancerOptions:
@@ -90,8 +90,8 @@ def balancer_options(
         Objectives missing in ``by`` are added to it.
     relative : bool, default False
         True if the target is relative to the value of the unchanged engine.
-    shaft_orders : int or sequence of int, optional
-        Orders for which shafts are compared; by default 1 and 2.
+    shaft_orders : number or sequence of numbers, optional
+        Orders for which shafts are compared, multiples of 1/2; by default 1 and 2.
     most_shafts : int, default 4
         Largest number of shafts in a set.
     counterweights : bool, default True
@@ -99,7 +99,7 @@ def balancer_options(
     planes : {"webs", "ends"}, sequence of float or mapping of str to float, default "ends"
         Places of the counterweights along the crank, as in :func:`crankpin.counterweights`; by
         default the first and last cylinder.
-    places : mapping of int to pair of float or None, optional
+    places : mapping of number or str to pair of float or None, optional
         Ratio → x and y of a shaft's axis, m, None where free. Without them places are free: see
         :func:`crankpin.balance_shafts`.
 
@@ -145,7 +145,7 @@ def balancer_options(
         raise inputs.rejected("most_shafts", most, "give 0 or more")
     places_of_weights = correction_planes.named(engine, planes)
     ratios = _ratios(
-        inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
+        inputs.explicit_half_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
     )
     weights = _counterweights(engine, places_of_weights) if with_weights else ()
     sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most, speed)
@@ -171,7 +171,7 @@ def balancer_options(
     return BalancerOptions(engine, speed, bare, tuple(targets.items()), options)
 
 
-def _ratios(orders: Sequence[int], *, with_weights: bool) -> list[int]:
+def _ratios(orders: Sequence[Order], *, with_weights: bool) -> list[Order]:
     """Return the ratios of the shafts compared; counterweights do what a shaft of ratio 1 does."""
     every = [ratio for order in dict.fromkeys(orders) for ratio in (-order, order)]
     return [ratio for ratio in every if not (with_weights and ratio == 1)]
@@ -219,7 +219,7 @@ def _counterweights(engine: Engine, planes: Mapping[str, Place]) -> tuple[Unbala
 def balancer_sets(
     engine: Engine,
     counterweights: tuple[Unbalance, ...],
-    ratios: Sequence[int],
+    ratios: Sequence[Order],
     places: Mapping[float, Axis],
     most_shafts: int,
     rpm: float,
@@ -321,7 +321,7 @@ def _limit(name: str, value: object) -> float:
     return number
 
 
-def _axes(places: object, ratios: Sequence[int]) -> Mapping[float, Axis]:
+def _axes(places: object, ratios: Sequence[Order]) -> Mapping[float, Axis]:
     """Return ratio → x and y."""
     hint = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:
@@ -335,8 +335,9 @@ def _axes(places: object, ratios: Sequence[int]) -> Mapping[float, Axis]:
         if len(x_and_y) != 2:
             raise inputs.rejected(name, place, hint)
         x, y = (inputs.optional_number(name, each) for each in x_and_y)
-        if ratio not in ratios:
+        speed = inputs.speed_ratio(name, ratio)
+        if speed not in ratios:
             hint = f"ratios of the shafts compared are {', '.join(map(str, ratios))}"
             raise inputs.rejected(name, place, hint)
-        axes[ratio] = (x, y)
+        axes[speed] = (x, y)
     return axes

@@ -24,6 +24,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from fractions import Fraction
 
     from numpy.typing import NDArray
 
@@ -56,7 +57,7 @@ def design(
     intervals_deg: Angles | None = None,
     strokes: int = 4,
     counterweights: bool = False,
-    shafts: Iterable[int] = (),
+    shafts: Iterable[float | str | Fraction] = (),
     bank_stagger: float = 0.0,
     rotating_mass: float | None = None,
     orders: Orders = "auto",
@@ -114,8 +115,9 @@ def design(
     counterweights : bool, default False
         True for counterweights on each crankpin that remove its cylinders' share of the forward
         part of the first order, which does not count then.
-    shafts : sequence of int, optional
-        Speed ratios of balance shafts that are allowed, such as ``[-1]`` or ``[2, -2]``: each
+    shafts : sequence of number or str, optional
+        Speed ratios of balance shafts that are allowed, multiples of 1/2 such as ``[-1]``,
+        ``[2, -2]`` or ``["-3/2"]``: each
         removes the part of its order that turns with it, force and moment. They are put on the
         crank axis, where they add no roll torque.
     rotating_mass : float, optional

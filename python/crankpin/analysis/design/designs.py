@@ -160,7 +160,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
 
     def _balancers(self) -> list[str]:
-        ratios = ", ".join(f"{ratio:+d}" for ratio in self.question.shafts)
+        ratios = ", ".join(f"{ratio:+g}" for ratio in self.question.shafts)
         return [
             *(["with counterweights"] if self.question.counterweights else []),
             *([f"with balance shafts at {ratios}"] if ratios else []),

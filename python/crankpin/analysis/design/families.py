@@ -30,6 +30,7 @@ from crankpin.model.shafts import Shaft, Unbalance, unbalance_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.design.question import Question
 
 
@@ -328,7 +329,7 @@ def _bob_weight(question: Question) -> Unbalance:
     return Unbalance(abs(vector), 0.0, round(math.degrees(cmath.phase(vector)), 13))
 
 
-def _with_shafts(engine: Engine, ratios: tuple[int, ...]) -> Engine:
+def _with_shafts(engine: Engine, ratios: tuple[Order, ...]) -> Engine:
     """Return an engine with shafts that remove all of their part of an order.
 
     Each stands on the crank axis, so that it adds no roll torque, and has two unbalances at the
@@ -337,6 +338,6 @@ def _with_shafts(engine: Engine, ratios: tuple[int, ...]) -> Engine:
     wanted = [(ratio, (0.0, 0.0), ends(engine), "both") for ratio in ratios]
     fitted, _ = _core.fit_shafts(engine._core, wanted, None)
     return engine.with_shafts(
-        Shaft(ratio, tuple(map(unbalance_of, weights)), name=f"of order {abs(ratio)}")
+        Shaft(ratio, tuple(map(unbalance_of, weights)), name=f"of order {abs(ratio):g}")
         for ratio, (_, weights, _) in zip(ratios, fitted, strict=True)
     )

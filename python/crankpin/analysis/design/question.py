@@ -25,7 +25,7 @@ from crankpin.model.data import big_end
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from crankpin._support.inputs import Angle, Angles
+    from crankpin._support.inputs import Angle, Angles, Order
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Hold
 
@@ -63,7 +63,7 @@ class Question:
     rotating_mass: float
     counterweights: bool
     """True if the forward part of the first order is removed by counterweights."""
-    shafts: tuple[int, ...]
+    shafts: tuple[Order, ...]
     """Speed ratios of the balance shafts."""
 
     @property
@@ -128,7 +128,7 @@ def checked(
     bank_stagger: object,
     rotating_mass: object,
     counterweights: object,
-    shafts: Iterable[int],
+    shafts: Iterable[float | str | Fraction],
 ) -> Question:
     """Return the question that these arguments ask, or raise an InputError."""
     kind = inputs.one_of("layout", layout, ("inline", "vee", "flat", "boxer"))
@@ -268,12 +268,15 @@ def _throws(count: int, throws: object) -> tuple[tuple[Exact, ...], ...]:
     return (tuple(listed),)
 
 
-def _shafts(shaft_ratios: Iterable[int]) -> tuple[int, ...]:
-    hint = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
+def _shafts(shaft_ratios: Iterable[float | str | Fraction]) -> tuple[Order, ...]:
+    hint = (
+        "give different speed ratios, multiples of 1/2 such as [-1] or [2, -2]; "
+        "for 1 give counterweights=True"
+    )
     listed = inputs.items("shafts", shaft_ratios, hint)
-    ratios = [inputs.whole("shafts", each) for each in listed]
+    ratios = [inputs.speed_ratio("shafts", each) for each in listed]
     if max(map(abs, ratios), default=0) > _core.HIGHEST_ORDER:
         raise inputs.rejected("shafts", listed, f"give ratios up to {_core.HIGHEST_ORDER}")
-    if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
+    if 1 in ratios or len(set(ratios)) < len(ratios):
         raise inputs.rejected("shafts", listed, hint)
     return tuple(ratios)

@@ -100,7 +100,11 @@ class MeasuredParts(Record):
         cylinders = [each.replace(reciprocating_mass=mass) for each in self.engine.cylinders]
         with suppressed():  # of a kilogram
             laden = self.engine.replace(
-                cylinder=cylinders, rotating_mass=float(rotating), counterweights=(), shafts=()
+                cylinder=cylinders,
+                rotating_mass=float(rotating),
+                counterweights=(),
+                shafts=(),
+                loads=(),
             )
         balance = over_square(laden, self.orders)
         pairs = zip(*(contributions(balance, name) for name in PLANE_VECTORS), strict=True)
@@ -175,8 +179,9 @@ def match_parts(
     Parameters
     ----------
     engine : Engine
-        The engine, with its counterweights and balance shafts: without them the parts that these
-        remove dominate (see :func:`crankpin.counterweights`).
+        The engine, with its counterweights, balance shafts and the loads that scale with the square
+        of the speed: without hardware the parts that it removes dominate (see
+        :func:`crankpin.counterweights`). Gas pressure makes no force; other loads are not counted.
     pistons : array_like, shape (n_pistons,)
         Measured masses of pistons with pins and rings, kg, at least one for each cylinder of
         each engine.
@@ -223,7 +228,7 @@ def match_parts(
     >>> i4 = cp.Engine.preset("i4")
     >>> match = cp.match_parts(i4, [0.402, 0.398, 0.405, 0.401], orders=[1])
     >>> match.exact, match.assignment[0].pistons
-    (True, (4, 2, 3, 1))
+    (True, (1, 3, 2, 4))
     >>> bool(match.value <= match.initial_value)
     True
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g

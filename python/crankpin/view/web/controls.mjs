@@ -40,8 +40,8 @@ export class Transport {
     });
     this.slider = slider(STRINGS.turn, 0, 720, 1, (value) => {
       const { angle_deg: angle } = view.state;
-      const { cycle } = view.engine;
-      view.set({ angle_deg: Math.floor(angle / cycle) * cycle + value, playing: false });
+      const { period } = view.engine;
+      view.set({ angle_deg: Math.floor(angle / period) * period + value, playing: false });
     });
     this.step = html("select", { "aria-label": STRINGS.step },
       ...STEPS.map((size) => fixed(html, "option", "step", size, `${size}°`, { value: size })));
@@ -61,8 +61,8 @@ export class Transport {
     );
   }
 
-  layout({ cycle }) {
-    this.slider.max = cycle;
+  layout({ period }) {
+    this.slider.max = period;
   }
 
   /** Show the state; the field is left alone while the reader types in it. */

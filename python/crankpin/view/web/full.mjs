@@ -41,8 +41,8 @@ export class Full extends View {
     this.phasors = new Phasors(this.units);
     this.timeline = new Timeline((within) => {
       const { angle_deg: angle } = this.state;
-      const { cycle } = this.engine;
-      this.set({ angle_deg: Math.floor(angle / cycle) * cycle + within, playing: false });
+      const { period } = this.engine;
+      this.set({ angle_deg: Math.floor(angle / period) * period + within, playing: false });
     }, this.units.length);
     this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
     this.stretched = numbered(html, "span", "stretch");

@@ -1,4 +1,4 @@
-// One history of the timeline: the curves of a quantity over a cycle, with a dot on each at the cursor.
+// One history of the timeline: the curves of a quantity over a period, with a dot on each at the cursor.
 
 import { numbered, path, place, show, svg } from "./dom.mjs";
 
@@ -38,7 +38,7 @@ export class History {
   }
 
   /** Draw what is known; `missing` says why there is nothing. `x` is the place of an angle. */
-  layout({ range: [low, high], scale, curves, missing }, cycle, x) {
+  layout({ range: [low, high], scale, curves, missing }, period, x) {
     if (this.note.textContent !== missing) this.note.textContent = missing;
     const [shown, hidden] = missing ? [this.note, this.known] : [this.known, this.note];
     if (shown.parentNode !== this.element) {
@@ -52,7 +52,7 @@ export class History {
     if (this.unit.textContent !== scale.unit) this.unit.textContent = scale.unit;
     curves.forEach(({ samples, span = 360 }, k) => {
       const turn = samples.length - 1;
-      const points = Array.from({ length: (turn * cycle) / span + 1 }, (_, i) =>
+      const points = Array.from({ length: (turn * period) / span + 1 }, (_, i) =>
         [x((span * i) / turn), this.y(samples[i % turn])]);
       this.curves[k].line.setAttribute("d", path(points));
     });

@@ -287,7 +287,7 @@ export class Mounted extends Turning {
       this.springs[k].pose(motion);
     });
     this.handle.pose(pose);
-    this.transport.show(state, reduced(angle, engine.cycle));
+    this.transport.show(state, reduced(angle, engine.period));
   }
 
   /** The motion that is drawn at a crank angle. */

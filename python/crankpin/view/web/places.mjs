@@ -22,6 +22,8 @@ export function configure(figures, settings) {
     weights: weights(figures, cylinders),
     shafts: figures.shafts,
     cycle: figures.strokes === 2 ? 360 : 720,
+    // After which all that is drawn repeats.
+    period: 360 * figures.turns,
     firing: figures.firing_deg && cylinders.map((each) => each.strokes),
     settings,
   };

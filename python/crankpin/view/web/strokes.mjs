@@ -1,4 +1,4 @@
-// The strokes of each cylinder over a cycle, a row each, with its firing, its dead centres and its height.
+// The strokes of each cylinder over a period, a row each, with its firing, its dead centres and its height.
 
 import { reduced } from "./complex.mjs";
 import { fixed, numbered, place, show, svg } from "./dom.mjs";
@@ -38,21 +38,22 @@ export class Strokes {
   }
 
   /** Draw the marks; `x` is the place of an angle. */
-  layout(cylinders, cycle, x) {
+  layout(cylinders, cycle, period, x) {
     const drawn = Object.fromEntries([...STROKES, "tdc", "fires"].map((name) => [name, ""]));
     cylinders.forEach(({ tdc_deg: tdc, strokes }, k) => {
       const top = this.top + k * ROW;
       for (const [name, begin, end] of strokes ?? []) {
-        for (const [from, to] of wrapped(begin, end, cycle)) {
+        for (const [from, to] of repeated(begin, end, cycle, period)) {
           drawn[name] += `M${at(x(from))} ${top + 2}H${at(x(to))}v${ROW - 4}H${at(x(from))}Z`;
         }
       }
-      for (let angle = reduced(tdc); angle < cycle; angle += 360) {
+      for (let angle = reduced(tdc); angle < period; angle += 360) {
         drawn.tdc += `M${at(x(angle))} ${top + 1}v${ROW - 2}`;
       }
       if (strokes) {
-        const fires = at(x(reduced(strokes[0][1], cycle)));
-        drawn.fires += `M${fires} ${top + ROW / 2 - 5}l4.5 5l-4.5 5l-4.5-5z`;
+        for (let fires = reduced(strokes[0][1], cycle); fires < period; fires += cycle) {
+          drawn.fires += `M${at(x(fires))} ${top + ROW / 2 - 5}l4.5 5l-4.5 5l-4.5-5z`;
+        }
       }
     });
     for (const [name, d] of Object.entries(drawn)) {
@@ -74,9 +75,12 @@ export class Strokes {
 
 const at = (x) => x.toFixed(2);
 
-/** A period within a cycle, in one or two pieces. */
-function wrapped(begin, end, cycle) {
-  const from = reduced(begin, cycle);
-  const to = from + end - begin;
-  return to <= cycle ? [[from, to]] : [[from, cycle], [0, to - cycle]];
+/** The pieces of a stroke of each cycle within a period. */
+function repeated(begin, end, cycle, period) {
+  const pieces = [];
+  for (let from = reduced(begin, cycle) - cycle; from < period; from += cycle) {
+    const [start, stop] = [Math.max(from, 0), Math.min(from + end - begin, period)];
+    if (start < stop) pieces.push([start, stop]);
+  }
+  return pieces;
 }

@@ -1,4 +1,4 @@
-// Histories of force, moment and torque over a cycle, above the strokes of each cylinder: one cursor.
+// Histories of force, moment and torque over a period, above the strokes of each cylinder: one cursor.
 
 import { reduced } from "./complex.mjs";
 import { dragged, fixed, svg } from "./dom.mjs";
@@ -12,9 +12,9 @@ const NARROW = 560;
 
 export class Timeline {
   width;
-  cycle;
+  period;
 
-  /** `turnTo` is told of the angle within the cycle that the reader points at; pistons' heights are in `unit`. */
+  /** `turnTo` is told of the angle within the period that the reader points at; pistons' heights are in `unit`. */
   constructor(turnTo, unit) {
     this.unit = unit;
     this.element = svg("svg", {
@@ -26,22 +26,22 @@ export class Timeline {
   }
 
   /** Draw everything for a width in pixels; `histories` are the rows of curves, from the top. */
-  layout({ cycle, cylinders }, histories, width) {
+  layout({ cycle, period, cylinders }, histories, width) {
     if (!this.histories) {
       this.histories = histories.map((each) => new History(each));
       this.strokes = new Strokes(cylinders, this.unit);
       this.element.append(this.axis, ...this.histories.map((each) => each.element),
         this.strokes.element, this.cursor);
     }
-    if (width !== this.width || cycle !== this.cycle) this.place(width, cycle, cylinders.length);
+    if (width !== this.width || period !== this.period) this.place(width, period, cylinders.length);
     const x = (angle) => this.x(angle);
-    histories.forEach((each, k) => this.histories[k].layout(each, cycle, x));
-    this.strokes.layout(cylinders, cycle, x);
+    histories.forEach((each, k) => this.histories[k].layout(each, period, x));
+    this.strokes.layout(cylinders, cycle, period, x);
   }
 
   /** Give everything its place: that depends on the width alone. */
-  place(width, cycle, count) {
-    Object.assign(this, { width, cycle });
+  place(width, period, count) {
+    Object.assign(this, { width, period });
     const narrow = width < NARROW;
     this.element.classList.toggle("narrow", narrow);
     this.left = narrow ? 48 : 64;
@@ -58,18 +58,18 @@ export class Timeline {
 
   /** Move the cursor and the dots on the curves, and write the pistons' heights. */
   pose(pose) {
-    const x = this.x(reduced(pose.thetaDeg, this.cycle)).toFixed(2);
+    const x = this.x(reduced(pose.thetaDeg, this.period)).toFixed(2);
     this.cursor.setAttribute("d", `M${x} 4V${this.bottom}`);
     for (const each of this.histories) each.pose(pose, x);
     this.strokes.pose(pose);
   }
 
   x(angle) {
-    return this.left + ((this.right - this.left) * angle) / this.cycle;
+    return this.left + ((this.right - this.left) * angle) / this.period;
   }
 
   ticks(top, step) {
-    return Array.from({ length: this.cycle / step + 1 }, (_, k) => k * step).flatMap((angle) => {
+    return Array.from({ length: this.period / step + 1 }, (_, k) => k * step).flatMap((angle) => {
       const x = this.x(angle);
       return [
         svg("path", { class: "grid", d: `M${x} 4V${top + 3}` }),
@@ -82,7 +82,7 @@ export class Timeline {
     dragged(this.element, (event) => {
       const box = this.element.getBoundingClientRect();
       const share = (event.clientX - box.left - this.left) / (this.right - this.left);
-      turnTo(Math.round(Math.min(Math.max(share, 0), 1) * this.cycle));
+      turnTo(Math.round(Math.min(Math.max(share, 0), 1) * this.period));
     });
   }
 }

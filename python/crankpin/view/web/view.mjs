@@ -84,7 +84,7 @@ export class View extends Turning {
     const { angle_deg: angle } = state;
     /** @type {any} */
     const pose = { ...placesAt(engine, angle), ...numbers.at(angle) };
-    const within = reduced(angle, engine.cycle);
+    const within = reduced(angle, engine.period);
     if (speed) pose.speed = between(speed, numbers.span, reduced(angle, numbers.span));
     this.last = pose;
     this.draw(pose, strokesAt(engine, angle));

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{Derived, Objective, ObjectiveFigure, ObjectiveQuantity};
 use crate::Complex64;
 use crate::numbers::ratio::SpeedRatio;
+use crate::readings::peaks::{Jet, polished};
 
 /// Crank angles to the shortest wave at which peaks are looked for.
 const SAMPLES: usize = 12;
@@ -196,7 +197,9 @@ impl ObjectiveFunction {
         let step = TAU / count as f64;
         at.into_iter()
             .map(|k| {
-                let theta = self.polished(phasors, axis, k as f64 * step, step);
+                // A step off at most.
+                let (start, at) = (k as f64 * step, |θ| self.squared(phasors, axis, θ));
+                let [theta, _] = polished([start - step, start + step], start, &at);
                 let mut sum = WithSlopes::zero(variables);
                 for (part, phasor) in self.parts.iter().zip(phasors) {
                     let unit = Complex64::cis(part.speed as f64 * theta);
@@ -209,39 +212,23 @@ impl ObjectiveFunction {
             .collect()
     }
 
-    /// Crank angle of the peak beside one that is a step off at most: Newton's method on the slope of
-    /// the square.
-    fn polished(
-        &self,
-        phasors: &[WithSlopes],
-        axis: Option<Complex64>,
-        start: f64,
-        step: f64,
-    ) -> f64 {
-        let mut theta = start;
-        for _ in 0..8 {
-            let mut jet = [Complex64::default(); 3];
-            for (part, phasor) in self.parts.iter().zip(phasors) {
-                let speed = part.speed as f64;
-                let turned = phasor.value * Complex64::cis(speed * theta);
-                jet[0] += turned;
-                jet[1] += Complex64::i() * speed * turned;
-                jet[2] -= speed * speed * turned;
-            }
-            if let Some(axis) = axis {
-                jet = jet.map(|each| (axis * each).re.into());
-            }
-            let product = |a: Complex64, b: Complex64| a.re * b.re + a.im * b.im;
-            let slope = product(jet[0], jet[1]);
-            let bend = product(jet[1], jet[1]) + product(jet[0], jet[2]);
-            let moved = if bend < 0.0 { -slope / bend } else { 0.25 * step.copysign(slope) };
-            let next = (theta + moved).clamp(start - step, start + step);
-            if (next - theta).abs() <= 1e-9 * step {
-                return next;
-            }
-            theta = next;
+    /// Half the square of a sum at a crank angle, or of its projection on an axis, and its derivatives.
+    fn squared(&self, phasors: &[WithSlopes], axis: Option<Complex64>, theta: f64) -> Jet {
+        let mut jet = [Complex64::default(); 3];
+        for (part, phasor) in self.parts.iter().zip(phasors) {
+            let speed = part.speed as f64;
+            let turned = phasor.value * Complex64::cis(speed * theta);
+            jet[0] += turned;
+            jet[1] += Complex64::i() * speed * turned;
+            jet[2] -= speed * speed * turned;
         }
-        theta
+        if let Some(axis) = axis {
+            jet = jet.map(|each| (axis * each).re.into());
+        }
+        let product = |a: Complex64, b: Complex64| a.re * b.re + a.im * b.im;
+        let [value, slope, bend] = jet;
+        let bend = product(slope, slope) + product(value, bend);
+        [0.5 * value.norm_sqr(), product(value, slope), bend]
     }
 
     /// The objective over its scale, and its derivatives.

@@ -72,14 +72,14 @@ impl Engine {
     #[must_use]
     pub fn facing_pistons(&self) -> Vec<[usize; 2]> {
         /// Distances below this part of that between two axes are rounding.
-        const PLACE_ROUNDING: f64 = 1e-9;
+        const FACING_TOLERANCE: f64 = 1e-9;
         let facing = |one: usize, other: usize| {
             let [a, b] = [one, other].map(|i| &self.stations[i]);
             let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
             let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
             let along = apart * a.bank.cis(-1);
             let is_opposite = b.bank.is_direction_of(a.bank + Angle::HALF_TURN);
-            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > PLACE_ROUNDING * apart.norm();
+            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > FACING_TOLERANCE * apart.norm();
             is_opposite && !is_beside && along.re > 0.0 && self.fires(one) && self.fires(other)
         };
         let cylinders = self.stations.len();

@@ -38,7 +38,7 @@ const LONGEST_ROD: f64 = 5.0;
 /// rods without end.
 const RODS_IN_MILLIMETRES: [f64; 2] = [1e3, 2e4];
 /// Distance from the engine, in crank radii, beyond which a place is not in metres (car: 13 m).
-const FARTHEST: f64 = 300.0;
+const FARTHEST_IN_RADII: f64 = 300.0;
 /// Bore over stroke, or stroke over bore, above which units differ; engines have 0.25 to 2.5.
 const LARGEST_BORE: f64 = 10.0;
 /// Mean piston speed, m/s, above which lengths are not in metres: the fastest engines have 30.
@@ -225,7 +225,8 @@ pub fn hardware(engine: &Engine, weights: &[Unbalance], shafts: &[Shaft]) -> Vec
 pub fn place(engine: &Engine, argument: &str, at: f64, middle: f64) -> Option<Warning> {
     let [first, last] = engine.ends();
     let distance = (at - middle).abs() - (last - first);
-    let far = FARTHEST * engine.largest_crank_radius() < distance && distance < f64::INFINITY;
+    let far =
+        FARTHEST_IN_RADII * engine.largest_crank_radius() < distance && distance < f64::INFINITY;
     far.then(|| beside(argument, at, "m", engine, MILLIMETRES))
 }
 

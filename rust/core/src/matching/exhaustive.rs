@@ -1,7 +1,8 @@
 //! Exhaustive matching: all arrangements of one set of parts, all partitions into sets.
 //!
 //! Arrangements of one half of the places are compared with those of the other, sorted by their first
-//! component; partitions are a dynamic programme over the parts that are left.
+//! component; partitions are a dynamic programme over the parts that are left. Of equals, such as an
+//! arrangement and its mirror image, the first in the order of the lists counts, not the last bit.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -46,12 +47,17 @@ impl Matching {
             available.iter().map(|&parts| (0..parts).collect()).collect();
         let halves = choices(&available, self.places / 2);
         cancel.expect(halves.len());
+        // The one that is known is among all, and its equals before it count.
+        let known_too = known.0 + 2.0 * self.tied;
         let found = pool::map(cancel, halves, |ours| {
-            let best = self.completed(&available, &ours, known.0, cancel)?;
+            let best = self.completed(&available, &ours, known_too, cancel)?;
             cancel.step()?;
             Ok(best)
         })?;
-        let best = found.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+        let better = |best: (f64, Partition), other: (f64, Partition)| {
+            if other.0 < best.0 - self.tied { other } else { best }
+        };
+        let best = found.into_iter().flatten().reduce(better);
         Ok(Some(best.map_or_else(|| known.1.clone(), |(_, chosen)| chosen)))
     }
 
@@ -67,7 +73,7 @@ impl Matching {
     }
 
     /// The best arrangement with these parts in the first half of the places, and the length of its
-    /// remainder, if that is less than `known`.
+    /// remainder, if that is less than `known` by more than rounding.
     ///
     /// For every choice of the parts of the second half, the arrangement that makes up for one of the
     /// first is looked for among those of the second, sorted by their first component.
@@ -90,7 +96,7 @@ impl Matching {
             cancel.check()?;
             let second = self.arrangements(half..self.places, &theirs, &zero)?;
             let least = best.as_ref().map_or(known, |(value, _)| *value);
-            if let Some((value, a, b)) = first.closest(&second, least) {
+            if let Some((value, a, b)) = first.closest(&second, least, self.tied) {
                 let joined = (0..self.kinds.len())
                     .map(|kind| [first.parts(a, kind), second.parts(b, kind)].concat());
                 best = Some((value, joined.collect()));
@@ -170,7 +176,7 @@ impl Matching {
             compared: 0,
         };
         let Some(least) = search.least(unused, self.sets)? else { return Ok(None) };
-        if least >= known.0 {
+        if least > known.0 + self.tied {
             return Ok(Some(known.1.clone()));
         }
         let mut chosen = vec![Vec::new(); self.kinds.len()];
@@ -210,23 +216,29 @@ impl Arrangements {
         &self.parts[(k * self.kinds + kind) * self.places..][..self.places]
     }
 
-    /// The pair with the shortest sum, if it is shorter than `known`: its length, and the two.
-    fn closest(&self, other: &Self, known: f64) -> Option<(f64, usize, usize)> {
-        let mut square = known * known;
-        let mut found = None;
+    /// The pair with the shortest sum, if it is shorter than `known` by more than `tied`: its length, and
+    /// the two; of those as short but for that the first.
+    fn closest(&self, other: &Self, known: f64, tied: f64) -> Option<(f64, usize, usize)> {
+        let mut least = known;
+        let mut found: Option<(f64, usize, usize)> = None;
         let mut sorted: Vec<(usize, &[f64])> = other.numbered().collect();
         sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
         for (i, ours) in self.numbered() {
-            let reach = square.sqrt();
+            let reach = least + tied;
             let begin = sorted.partition_point(|(_, theirs)| theirs[0] < -ours[0] - reach);
             for &(j, theirs) in &sorted[begin..] {
                 if ours[0] + theirs[0] > reach {
                     break;
                 }
-                let sum: f64 = ours.iter().zip(theirs).map(|(a, b)| (a + b).powi(2)).sum();
-                if sum < square {
-                    square = sum;
-                    found = Some((sum.sqrt(), i, j));
+                let square: f64 = ours.iter().zip(theirs).map(|(a, b)| (a + b).powi(2)).sum();
+                if square >= (least + tied) * (least + tied) {
+                    continue;
+                }
+                let sum = square.sqrt();
+                let is_before = found.is_some_and(|(_, one, other)| one == i && j < other);
+                if sum < least - tied || is_before {
+                    least = least.min(sum);
+                    found = Some((least, i, j));
                 }
             }
         }
@@ -283,7 +295,7 @@ impl Partitions<'_> {
                 }
                 let rest = [left[0] & !taken[0], left[1] & !taken[1]];
                 let Some(of_rest) = self.least(rest, sets - 1)? else { return Ok(None) };
-                if value + of_rest < best.0 {
+                if value + of_rest < best.0 - self.problem.tied {
                     best = (value + of_rest, taken, rest);
                 }
             }

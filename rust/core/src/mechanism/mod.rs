@@ -25,6 +25,7 @@ use ndarray::Array2;
 use self::cylinder::{Cylinder, NEVER_LEANS};
 use self::exact::{ExactHarmonic, MotionKey};
 use self::harmonics::rod::TorqueHarmonics;
+use self::harmonics::table::centred_table;
 use self::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing};
 use self::scotch_yoke::ScotchYoke;
 use self::slider_crank::SliderCrank;
@@ -97,12 +98,17 @@ pub trait Mechanism: Debug + Send + Sync + Any {
     /// Crank radius over rod length.
     fn rod_ratio(&self) -> f64;
 
+    /// The lengths that it was made of.
+    fn lengths(&self) -> &Cylinder;
+
     /// The same with rod ratio, and pin offset (m), replaced.
     fn with_proportions(
         &self,
         rod_ratio: Option<f64>,
         pin_offset: Option<f64>,
-    ) -> Result<Arc<dyn Mechanism>>;
+    ) -> Result<Arc<dyn Mechanism>> {
+        self.lengths().mechanism_with(rod_ratio, pin_offset)
+    }
 
     /// Real amplitudes of the force at many rod ratios (rows), where they are evaluated side by side.
     fn force_at_ratios(
@@ -111,8 +117,7 @@ pub trait Mechanism: Debug + Send + Sync + Any {
         orders: &[u32],
         cancel: &Cancel,
     ) -> Option<Result<Array2<f64>>> {
-        let _ = (rod_ratios, orders, cancel);
-        None
+        (self.offset() == 0.0).then(|| centred_table(rod_ratios, orders, cancel))
     }
 
     /// Whether every order grows with the rod ratio from 0 to its own.

@@ -1,13 +1,8 @@
 //! The motion of a piston whose bar is moved by a sliding crankpin: r cos θ about the middle of its stroke, the
 //! limit of infinite rods.
 
-use std::sync::Arc;
-
-use ndarray::Array2;
-
 use super::exact::{ExactHarmonic, MotionKey, Rest};
 use super::harmonics::rod::TorqueHarmonics;
-use super::harmonics::table;
 use super::motion::{CrankPosition, Motion, Swing};
 use super::{Cylinder, HarmonicsOf, Mechanism, is_equal};
 use crate::Complex64;
@@ -83,21 +78,8 @@ impl Mechanism for ScotchYoke {
         0.0
     }
 
-    fn with_proportions(
-        &self,
-        rod_ratio: Option<f64>,
-        pin_offset: Option<f64>,
-    ) -> Result<Arc<dyn Mechanism>> {
-        self.lengths.mechanism_with(rod_ratio, pin_offset)
-    }
-
-    fn force_at_ratios(
-        &self,
-        rod_ratios: &[f64],
-        orders: &[u32],
-        cancel: &Cancel,
-    ) -> Option<Result<Array2<f64>>> {
-        Some(table::centred_table(rod_ratios, orders, cancel))
+    fn lengths(&self) -> &Cylinder {
+        &self.lengths
     }
 
     fn grows_with_rod_ratio(&self, _: HarmonicsOf) -> bool {

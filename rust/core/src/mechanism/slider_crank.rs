@@ -4,14 +4,11 @@
 //! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
 //! crankpin swings after that.
 
-use std::sync::Arc;
-
-use ndarray::Array2;
 use num_traits::CheckedDiv;
 
 use super::exact::{ExactHarmonic, FigureKey, MotionKey, Rest};
+use super::harmonics;
 use super::harmonics::rod::TorqueHarmonics;
-use super::harmonics::{self, table};
 use super::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing, fill};
 use super::{Cylinder, HarmonicsOf, Mechanism, is_equal};
 use crate::Complex64;
@@ -311,21 +308,8 @@ impl Mechanism for SliderCrank {
         1.0 / self.proportions.rod
     }
 
-    fn with_proportions(
-        &self,
-        rod_ratio: Option<f64>,
-        pin_offset: Option<f64>,
-    ) -> Result<Arc<dyn Mechanism>> {
-        self.lengths.mechanism_with(rod_ratio, pin_offset)
-    }
-
-    fn force_at_ratios(
-        &self,
-        rod_ratios: &[f64],
-        orders: &[u32],
-        cancel: &Cancel,
-    ) -> Option<Result<Array2<f64>>> {
-        self.is_centred().then(|| table::centred_table(rod_ratios, orders, cancel))
+    fn lengths(&self) -> &Cylinder {
+        &self.lengths
     }
 
     /// Without offset √(1 − λ² sin²θ) is a power series in λ² whose terms give each order one sign. Of the

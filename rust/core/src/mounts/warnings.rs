@@ -7,7 +7,7 @@ use crate::numbers::figure::significant;
 /// Part of the largest principal moment that rounding lets the sum of the others lack.
 const MOST_MISSING: f64 = 1e-9;
 /// Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres.
-const FARTHEST: f64 = 5.0;
+const FARTHEST_MOUNT: f64 = 5.0;
 /// Radii of gyration, m, of bodies from a model engine to a ship's; others are in other units.
 const GYRATION: [f64; 2] = [1e-3, 5.0];
 /// Stiffness of a mount, N/m, below and above which it is likely not in N/m.
@@ -135,7 +135,7 @@ pub fn stiffness(argument: &str, mount: &str, values: &[f64]) -> Option<Warning>
 /// Of a place on a body that is in millimetres, m.
 #[must_use]
 pub fn place(argument: &str, at: [f64; 3]) -> Option<Warning> {
-    let is_far = at.iter().any(|along| along.abs() > FARTHEST);
+    let is_far = at.iter().any(|along| along.abs() > FARTHEST_MOUNT);
     let places = at.map(figure).join(", ");
     let text = || format!("{argument} = ({places}) m: was it given in millimetres?");
     is_far.then(|| Warning::new(argument, text()))

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::engine::layout::Strokes;
 use crate::engine::{Engine, Unbalance};
 use crate::firing::Firing;
+use crate::load::Scene;
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -15,6 +16,7 @@ use crate::numbers::figure;
 use crate::numbers::index::ListIndex;
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::Cycle;
+use crate::source::resolved;
 
 /// Mass of the block, which is not known, over that of the pistons: 90 kg for two litres.
 const BLOCK_MASS_RATIO: f64 = 50.0;
@@ -28,6 +30,8 @@ pub struct Drawing {
     pub name: String,
     /// 4 or 2.
     pub strokes: u32,
+    /// Turns of the main crank after which all of it repeats.
+    pub turns: u32,
     /// Plane about which moments are taken, m.
     pub reference_z: f64,
     /// Angle between the two banks where it can change.
@@ -145,6 +149,7 @@ impl Drawing {
         Ok(Self {
             name: engine.shown_name(),
             strokes: engine.strokes().number(),
+            turns: turns(engine, cancel)?,
             reference_z: engine.reference(None)?,
             bank_angle_deg: engine.changeable_bank_angle(),
             cranks: cranks.collect(),
@@ -226,6 +231,25 @@ pub fn fired_kinds(engine: &Engine) -> Vec<usize> {
         }
     }
     kinds
+}
+
+/// Turns of the main crank after which all of an engine repeats: its strokes, what turns with cranks and
+/// shafts, and its further loads.
+fn turns(engine: &Engine, cancel: &Cancel) -> Result<u32> {
+    let cranks = engine.cranks().iter().map(|crank| crank.ratio);
+    let shafts = engine.shafts().iter().map(|shaft| shaft.ratio);
+    let is_half = |ratio: SpeedRatio| ratio.halves() % 2 != 0;
+    if engine.strokes() == Strokes::Four || cranks.chain(shafts).any(is_half) {
+        return Ok(2);
+    }
+    let loads = Scene::of(engine, None)?;
+    for (_, load) in loads.further() {
+        let orders = resolved(loads.source(load), cancel)?;
+        if orders.iter().any(|order| order.as_whole().is_none()) {
+            return Ok(2);
+        }
+    }
+    Ok(1)
 }
 
 /// Cycles that differ, in the order in which cylinders have them.

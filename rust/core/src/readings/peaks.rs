@@ -258,7 +258,7 @@ pub fn largest_vectors(
 }
 
 /// Value and two derivatives by crank angle.
-type Jet = [f64; 3];
+pub(crate) type Jet = [f64; 3];
 
 /// A vector of sums of orders, times a scale at which squares are in range.
 struct VectorSum<'a, const N: usize> {
@@ -449,42 +449,50 @@ impl Interval {
         ]
     }
 
-    /// Height of the maximum between the ends: Newton's method on the slope, from where a straight line
-    /// of slopes is zero; bisection where that would leave the bracket or the top.
+    /// Height of the maximum between the ends, from where a straight line of slopes is zero.
     fn polish(&self, at: &impl Fn(f64) -> Jet) -> f64 {
-        let (mut low, mut high) = (self.from, self.from + self.width);
-        let mut best = self.highest_end();
         let [rise, fall] = [self.ends[0][1], self.ends[1][1]];
-        let mut here = self.from + self.width * (rise / (rise - fall));
-        for _ in 0..60 {
-            let [value, slope, bend] = at(here);
-            best = best.max(value);
-            if slope > 0.0 {
-                low = here;
-            } else {
-                high = here;
-            }
-            let newton = here - slope / bend;
-            // Where it bends upwards Newton's method goes to a dip.
-            let next = if bend < 0.0 && (low..=high).contains(&newton) {
-                // The parabola's top is right to rounding where its steps are so short that what it
-                // lacks, of the third power, is.
-                if (newton - here).abs() <= 3e-6 * self.width {
-                    best = best.max(value - 0.5 * slope * slope / bend);
-                    break;
-                }
-                newton
-            } else {
-                f64::midpoint(low, high)
-            };
-            // The value has no slope at the top: 1e-9 of the width off it is right to rounding.
-            if (next - here).abs() <= 1e-9 * self.width {
-                break;
-            }
-            here = next;
-        }
-        best
+        let bracket = [self.from, self.from + self.width];
+        let start = self.from + self.width * (rise / (rise - fall));
+        polished(bracket, start, at)[1].max(self.highest_end())
     }
+}
+
+/// Place and height of the maximum in a bracket: Newton's method on the slope from a place in it;
+/// bisection where that would leave the bracket or the top.
+pub(crate) fn polished(
+    [mut low, mut high]: [f64; 2],
+    start: f64,
+    at: &impl Fn(f64) -> Jet,
+) -> [f64; 2] {
+    let (width, mut here, mut best) = (high - low, start, f64::NEG_INFINITY);
+    for _ in 0..60 {
+        let [value, slope, bend] = at(here);
+        best = best.max(value);
+        if slope > 0.0 {
+            low = here;
+        } else {
+            high = here;
+        }
+        let newton = here - slope / bend;
+        // Where it bends upwards Newton's method goes to a dip.
+        let next = if bend < 0.0 && (low..=high).contains(&newton) {
+            // The parabola's top is right to rounding where its steps are so short that what it lacks, of
+            // the third power, is.
+            if (newton - here).abs() <= 3e-6 * width {
+                return [newton, best.max(value - 0.5 * slope * slope / bend)];
+            }
+            newton
+        } else {
+            f64::midpoint(low, high)
+        };
+        // The value has no slope at the top: 1e-9 of the width off it is right to rounding.
+        if (next - here).abs() <= 1e-9 * width {
+            break;
+        }
+        here = next;
+    }
+    [here, best]
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 pub use self::finding::{Finding, LargestOrder, Row};
 pub use self::sentences::Wording;
-use self::sums::Sums;
+use self::sums::VectorSums;
 use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::firing::Firing;
 use crate::load::Scene;
@@ -33,7 +33,7 @@ use crate::readings::turning::{RollOfAxes, roll_of_axes};
 use crate::wrench::Wrench;
 
 /// Highest order whose cancelling is explained.
-const HIGHEST: u32 = 12;
+const HIGHEST_EXPLAINED: u32 = 12;
 /// Orders are mentioned from this part of one piston's first-order force, at the longest lever.
 const SMALLEST_MENTIONED: f64 = 0.01;
 /// Orders of gas torque that are mentioned.
@@ -82,7 +82,7 @@ pub struct Explanation {
     /// First-order force of the strongest piston, or of a throw; 0 without both. Without a speed over ω².
     pub unit: f64,
     /// The part that makes it: a throw where pistons are not worth mention beside it.
-    pub part: Part,
+    pub part: ReferencePart,
     /// Longest lever of a cylinder or an unbalance about the reference plane, m.
     pub lever: f64,
     /// What matters most first.
@@ -91,14 +91,14 @@ pub struct Explanation {
 
 /// Part whose first-order force others are relative to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum ReferencePart {
     /// A piston.
     Piston,
     /// A throw with what rotates at it.
     Throw,
 }
 
-impl Part {
+impl ReferencePart {
     /// In a word.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -140,7 +140,7 @@ pub fn explain(
 // --- what figures are relative to ---
 
 /// First-order force over ω² of the strongest piston, or of a throw: the order of its own crank.
-fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
+fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, ReferencePart)> {
     let loads = Scene::of(engine, None)?;
     let mut pistons: f64 = 0.0;
     let mut throws: f64 = 0.0;
@@ -155,9 +155,9 @@ fn strongest(engine: &Engine, cancel: &Cancel) -> Result<(f64, Part)> {
         *largest = largest.max(size);
     }
     Ok(if pistons > SMALLEST_MENTIONED * throws {
-        (pistons, Part::Piston)
+        (pistons, ReferencePart::Piston)
     } else {
-        (throws, Part::Throw)
+        (throws, ReferencePart::Throw)
     })
 }
 
@@ -174,7 +174,7 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
     let request = Request { rpm, reference_z: None, torque: false };
     let chosen = balance(engine, &request, &Orders::Auto { rtol: RTOL }, cancel)?;
     let mut orders =
-        [chosen.orders, (1..=HIGHEST).map(Order::whole).collect::<Result<_>>()?].concat();
+        [chosen.orders, (1..=HIGHEST_EXPLAINED).map(Order::whole).collect::<Result<_>>()?].concat();
     orders.sort_unstable();
     orders.dedup();
     let whole = balance(engine, &request, &Orders::Given(orders.clone()), cancel)?;
@@ -183,15 +183,15 @@ fn of_vectors(engine: &Engine, rpm: f64, units: [f64; 2], cancel: &Cancel) -> Re
     let levers: Vec<f64> = engine.stations().iter().map(|place| place.z - reference).collect();
     let proofs = ZeroProofs::new(engine, cancel)?;
     let sums = |vector: Vector, unit: f64| {
-        Sums::new((engine, &proofs), &levers, (vector, unit), &whole, &parts)
+        VectorSums::new((engine, &proofs), &levers, (vector, unit), &whole, &parts)
     };
     let both = [sums(Vector::Force, units[0]), sums(Vector::Moment, units[1])];
 
     let mut found = [both[0].of_hardware()?, both[1].of_hardware()?].concat();
-    let mut shaking: Vec<(&Sums, usize)> =
+    let mut shaking: Vec<(&VectorSums, usize)> =
         both.iter().flat_map(|sums| sums.shaking().map(move |k| (sums, k))).collect();
     // Of equals forces first, and lower orders.
-    let share = |(sums, k): &(&Sums, usize)| rounded(sums.share(*k), 6);
+    let share = |(sums, k): &(&VectorSums, usize)| rounded(sums.share(*k), 6);
     shaking.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let mut weights = bob_weights(engine);
     for (sums, k) in &shaking {

@@ -13,17 +13,17 @@ use crate::readings::turning::cranks_by_sense;
 use crate::wrench::{Planar, tilt_deg};
 
 /// Phasors that differ by less of the largest are taken for equal.
-const ROUNDING: f64 = 1e-9;
+const EQUAL_PHASORS: f64 = 1e-9;
 /// Highest order for which balance shafts are named: faster ones are hardly built.
 const REMOVABLE: u32 = 2;
 /// Steps of phases that are as good as equal.
 const SAME_PULLS: f64 = 1e-6;
 
 /// Forward and backward part.
-type Parts = [Complex64; 2];
+type BothSenses = [Complex64; 2];
 
 /// Force or moment of an engine: its orders, and what each part adds to them.
-pub(super) struct Sums<'a> {
+pub(super) struct VectorSums<'a> {
     engine: &'a Engine,
     proofs: &'a ZeroProofs<'a>,
     /// Places of the cylinders from the reference plane, m.
@@ -32,33 +32,33 @@ pub(super) struct Sums<'a> {
     /// One piston's first-order force, or that at the longest lever.
     size: f64,
     orders: &'a [Order],
-    whole: Vec<Parts>,
+    whole: Vec<BothSenses>,
     tilts_deg: Vec<f64>,
     peaks: Vec<f64>,
     /// Of each cylinder, order by order.
-    cylinders: Vec<Vec<Parts>>,
+    cylinders: Vec<Vec<BothSenses>>,
     /// Of counterweights and of balance shafts, where there are any.
-    hardware: [Option<Vec<Parts>>; 2],
+    hardware: [Option<Vec<BothSenses>>; 2],
 }
 
-fn parts_of(planar: &Planar) -> Parts {
+fn parts_of(planar: &Planar) -> BothSenses {
     [planar.forward, planar.backward()]
 }
 
-fn sizes([forward, backward]: Parts) -> [f64; 2] {
+fn sizes([forward, backward]: BothSenses) -> [f64; 2] {
     [forward.norm(), backward.norm()]
 }
 
-fn larger(parts: Parts) -> f64 {
+fn larger(parts: BothSenses) -> f64 {
     let [forward, backward] = sizes(parts);
     forward.max(backward)
 }
 
-fn plus(a: Parts, b: Parts) -> Parts {
+fn plus(a: BothSenses, b: BothSenses) -> BothSenses {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-impl<'a> Sums<'a> {
+impl<'a> VectorSums<'a> {
     /// Of a balance, and what each part adds to it.
     pub fn new(
         (engine, proofs): (&'a Engine, &'a ZeroProofs<'a>),
@@ -68,7 +68,7 @@ impl<'a> Sums<'a> {
         terms: &[(Origin, Balance)],
     ) -> Self {
         let count = balance.orders.len();
-        let of = |balance: &Balance| -> Vec<Parts> {
+        let of = |balance: &Balance| -> Vec<BothSenses> {
             (0..count).map(|k| parts_of(balance.planar(vector, k))).collect()
         };
         let mut cylinders = Vec::new();
@@ -80,7 +80,7 @@ impl<'a> Sums<'a> {
             }
             // On cranks, or on shafts.
             let group = usize::from(engine.crank_with(*origin).is_none());
-            let sums = hardware[group].get_or_insert_with(|| vec![Parts::default(); count]); // bounded: by a balance's orders
+            let sums = hardware[group].get_or_insert_with(|| vec![BothSenses::default(); count]); // bounded: by a balance's orders
             sums.iter_mut().zip(of(part)).for_each(|(sum, added)| *sum = plus(*sum, added));
         }
         let whole = of(balance);
@@ -141,7 +141,7 @@ impl<'a> Sums<'a> {
     }
 
     fn hardware_of(&self, k: usize) -> Result<Option<Finding>> {
-        let acts = |added: &Option<Vec<Parts>>| {
+        let acts = |added: &Option<Vec<BothSenses>>| {
             let added = added.as_ref()?[k];
             (sizes(added).iter().sum::<f64>() > SMALLEST_MENTIONED * self.size).then_some(added)
         };
@@ -151,8 +151,8 @@ impl<'a> Sums<'a> {
             [None, Some(shafts)] => (Acting::Shafts, vec![shafts]),
             [Some(weights), Some(shafts)] => (Acting::Both, vec![weights, shafts]),
         };
-        let all = added.iter().fold(Parts::default(), |sum, &parts| plus(sum, parts));
-        let least = ROUNDING * added.iter().map(|&parts| larger(parts)).fold(0.0, f64::max);
+        let all = added.iter().fold(BothSenses::default(), |sum, &parts| plus(sum, parts));
+        let least = EQUAL_PHASORS * added.iter().map(|&parts| larger(parts)).fold(0.0, f64::max);
         let without = [0, 1].map(|sense| self.whole[k][sense] - all[sense]);
         let before = sizes(without).map(|part| if part <= least { 0.0 } else { part });
         let after = sizes(self.whole[k]);
@@ -216,7 +216,7 @@ impl<'a> Sums<'a> {
         let together = pulls.iter().sum::<Complex64>().norm();
         pulls.len() > 1
             && largest > 0.0
-            && (sizes().sum::<f64>() - together).abs() <= ROUNDING * largest
+            && (sizes().sum::<f64>() - together).abs() <= EQUAL_PHASORS * largest
     }
 
     /// Half the pull of a piston along its bore.
@@ -270,7 +270,7 @@ impl<'a> Sums<'a> {
     /// Whether some cylinders cancel each other.
     fn cancel(&self, k: usize, members: &[usize]) -> bool {
         let added = members.iter().map(|&i| self.cylinders[i][k]);
-        larger(added.fold(Parts::default(), plus)) <= ROUNDING * self.largest(k)
+        larger(added.fold(BothSenses::default(), plus)) <= EQUAL_PHASORS * self.largest(k)
     }
 
     /// Why the cylinders' sum is zero, and which cylinders cancel in pairs.
@@ -281,7 +281,7 @@ impl<'a> Sums<'a> {
         if let Some(pairs) = self.pairs(k) {
             let longest = self.levers.iter().fold(0.0, |most: f64, lever| most.max(lever.abs()));
             let is_mirrored = |&[one, other]: &[usize; 2]| {
-                (self.levers[one] + self.levers[other]).abs() <= ROUNDING * longest
+                (self.levers[one] + self.levers[other]).abs() <= EQUAL_PHASORS * longest
             };
             let mirrored = self.vector == Vector::Moment && pairs.iter().all(is_mirrored);
             return (if mirrored { Reason::Mirrored } else { Reason::Pairs }, pairs);
@@ -321,7 +321,7 @@ impl<'a> Sums<'a> {
 
     /// Pairs of cylinders that cancel: of one bank, or moments at opposite levers.
     fn pairs(&self, k: usize) -> Option<Vec<[usize; 2]>> {
-        let least = ROUNDING * self.largest(k);
+        let least = EQUAL_PHASORS * self.largest(k);
         let far = |one: usize, other: usize| match self.vector {
             Vector::Moment => (self.levers[one] + self.levers[other]).abs(),
             Vector::Force => f64::from(self.engine.bank_of(one) != self.engine.bank_of(other)),
