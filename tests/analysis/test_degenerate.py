@@ -208,8 +208,8 @@ def test_results_of_nothing_do_what_others_do(
                 continue  # says why, or which package is not there
             assert finite(found), label
             repr(found)
-    if "matplotlib.pyplot" in sys.modules:
-        sys.modules["matplotlib.pyplot"].close("all")
+            if "matplotlib.pyplot" in sys.modules:
+                sys.modules["matplotlib.pyplot"].close("all")
 
 
 @in_turn("seed", range(20))

@@ -202,7 +202,7 @@ def _words(
     place.set_xticks(range(len(others)), [plain_text(each.header) for each in others])
     place.tick_params(length=0.0, labelsize="x-small")
     place.spines[:].set_visible(False)
-    place.set_ylim(len(rows[0]) - 0.5, -0.5)
+    place.set_ylim(max(1, len(rows[0])) - 0.5, -0.5)
     place.set_xlim(-0.5, len(others) - 0.5)
     label_y(place, first.header)
     grid.set_title(*title.split("; "))
