@@ -24,7 +24,7 @@ const LEAST_IMPROVEMENT: f64 = 1e-12;
 /// Exchanges that are worse by more than this part are not computed to rounding.
 const ESTIMATE_MARGIN: f64 = 1e-9;
 /// Part of the terms of a remainder below which differences are rounding: of equals the first counts.
-const TERMS_ROUNDING: f64 = 64.0 * f64::EPSILON;
+const EQUAL_VALUES: f64 = 64.0 * f64::EPSILON;
 /// No further start is made once a matching is above the bound by no more than this part of it.
 const AT_BOUND: f64 = 1e-8;
 
@@ -201,7 +201,7 @@ impl Matching {
             let figures = kind.deviations.iter().zip(&kind.influences);
             figures.map(|(of, unit)| largest(of) * unit.iter().map(|x| length(x)).sum::<f64>())
         });
-        let tied = TERMS_ROUNDING * (length(&start) + terms.sum::<f64>());
+        let tied = EQUAL_VALUES * (length(&start) + terms.sum::<f64>());
         Ok(Self { measure, start, kinds, places, sets, tied })
     }
 
