@@ -19,6 +19,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from crankpin import cli
 from crankpin._support import inputs
+from crankpin._support.drawing import Plot
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
 from crankpin.view import gallery
@@ -357,6 +358,16 @@ def without_fields(
         lines[:] = [*docstring.text.splitlines(), ""]
 
 
+def plots_as_methods(
+    app: Sphinx, what: str, name: str, of: object, options: object, lines: list[str]
+) -> None:
+    """Read the docstring of ``plot``, to autodoc an attribute, as that of the method it is."""
+    if isinstance(of, Plot):
+        names = [str(each).partition(":")[0] for each in of.__signature__.parameters.values()]
+        read = NumpyDocstring(lines, app.config, app, "method", name, of).lines()
+        lines[:] = [f"``plot({', '.join(names[1:])})``", "", *read]
+
+
 def whole_docstring(docstring: NumpyDocstring) -> tuple[str, list[str]]:
     """Return the docstring of a property: to napoleon what precedes a colon would be its type."""
     return "", docstring._consume_to_end()
@@ -373,6 +384,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
     app.connect("autodoc-process-signature", hide_constructor)
     app.connect("autodoc-process-docstring", without_fields, priority=400)  # before napoleon
+    app.connect("autodoc-process-docstring", plots_as_methods, priority=400)
     app.connect("builder-inited", copy_notebooks)
     app.connect("builder-inited", make_gallery)
     app.connect("source-read", link_copies)
