@@ -91,7 +91,12 @@ impl Job<'_> {
                 let tasks =
                     tasks.flat_map(|(out, coefficients)| self.tasks(&span, coefficients, out));
                 pool::each(self.cancel, tasks.collect(), numbers, |task| {
-                    self.evaluate(&waves, task, |block, out| finish(block, factor, out))
+                    self.evaluate(
+                        &waves,
+                        task,
+                        #[inline(always)]
+                        |block, out| finish(block, factor, out),
+                    )
                 })?;
             }
         }
