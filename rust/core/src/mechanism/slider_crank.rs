@@ -126,6 +126,38 @@ impl Proportions {
         Height { value: height, inverse, secant, rise, bend }
     }
 
+    /// Motion at some positions and half a turn on, of a rod without an offset: what it adds to that of the
+    /// crankpin is the same, to the last bit, and so are its root and its quotient.
+    #[inline(always)]
+    fn opposite_motions(
+        &self,
+        cranks: &Cranks,
+        velocities: Option<&mut [f64]>,
+        accelerations: &mut [f64],
+        [opposite_velocities, opposite_accelerations]: [&mut [f64]; 2],
+    ) {
+        let Some(velocities) = velocities else {
+            return fill(
+                cranks,
+                [accelerations, opposite_accelerations],
+                #[inline(always)]
+                |crank| {
+                    let Height { bend, .. } = self.height_at(crank);
+                    [bend - crank.cos, bend + crank.cos]
+                },
+            );
+        };
+        fill(
+            cranks,
+            [velocities, opposite_velocities, accelerations, opposite_accelerations],
+            #[inline(always)]
+            |crank| {
+                let Height { rise, bend, .. } = self.height_at(crank);
+                [rise - crank.sin, rise + crank.sin, bend - crank.cos, bend + crank.cos]
+            },
+        );
+    }
+
     /// How the rod turns, where the crank stands so.
     #[inline(always)]
     fn swing_at(&self, crank: &CrankPosition) -> Swing {
@@ -176,38 +208,6 @@ impl SliderCrank {
     fn is_centred(&self) -> bool {
         self.offset() == 0.0
     }
-
-    /// Motion at some positions and half a turn on, of a rod without an offset: what it adds to that of the
-    /// crankpin is the same, to the last bit, and so are its root and its quotient.
-    #[inline(always)]
-    fn opposite_motions(
-        &self,
-        cranks: &Cranks,
-        velocities: Option<&mut [f64]>,
-        accelerations: &mut [f64],
-        [opposite_velocities, opposite_accelerations]: [&mut [f64]; 2],
-    ) {
-        let Some(velocities) = velocities else {
-            return fill(
-                cranks,
-                [accelerations, opposite_accelerations],
-                #[inline(always)]
-                |crank| {
-                    let Height { bend, .. } = self.proportions.height_at(crank);
-                    [bend - crank.cos, bend + crank.cos]
-                },
-            );
-        };
-        fill(
-            cranks,
-            [velocities, opposite_velocities, accelerations, opposite_accelerations],
-            #[inline(always)]
-            |crank| {
-                let Height { rise, bend, .. } = self.proportions.height_at(crank);
-                [rise - crank.sin, rise + crank.sin, bend - crank.cos, bend + crank.cos]
-            },
-        );
-    }
 }
 
 impl Mechanism for SliderCrank {
@@ -224,26 +224,25 @@ impl Mechanism for SliderCrank {
     }
 
     fn motions(&self, cranks: &Cranks, into: MotionColumns) {
+        // Numbers of its own: what loops write might be those of the mechanism.
+        let (proportions, is_centred) = (self.proportions, self.is_centred());
         vectorised(
             #[inline(always)]
-            || {
-                let into = match into {
-                    MotionColumns {
-                        acceleration,
-                        velocity,
-                        jerk: None,
-                        lean: None,
-                        opposite: Some(opposite),
-                    } if self.is_centred() => {
-                        return self.opposite_motions(cranks, velocity, acceleration, opposite);
-                    }
-                    into => into,
-                };
-                into.fill(
+            move || match into {
+                MotionColumns {
+                    acceleration,
+                    velocity,
+                    jerk: None,
+                    lean: None,
+                    opposite: Some(opposite),
+                } if is_centred => {
+                    proportions.opposite_motions(cranks, velocity, acceleration, opposite);
+                }
+                into => into.fill(
                     cranks,
                     #[inline(always)]
-                    |crank| self.proportions.motion_at(crank),
-                );
+                    |crank| proportions.motion_at(crank),
+                ),
             },
         );
     }
@@ -253,15 +252,16 @@ impl Mechanism for SliderCrank {
     }
 
     fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
+        let proportions = self.proportions;
         vectorised(
             #[inline(always)]
-            || {
+            move || {
                 fill(
                     cranks,
                     into,
                     #[inline(always)]
                     |crank| {
-                        let Swing { velocity, acceleration } = self.proportions.swing_at(crank);
+                        let Swing { velocity, acceleration } = proportions.swing_at(crank);
                         [velocity, acceleration]
                     },
                 );
