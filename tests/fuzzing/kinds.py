@@ -323,7 +323,7 @@ KINDS: dict[str, list[Any]] = {
     "what": ["peak"],
     "pistons": [SIX],
     "rods": [[[mass, mass] for mass in SIX]],
-    "shafts: Iterable[int]": [[-1]],
+    "shafts: Iterable[float | str | Fraction]": [[-1]],
     "after": [ENGINE, "lumped"],
     "first_deg": [[0, 120, 240]],
     "second_deg": [[0, 240, 120]],
