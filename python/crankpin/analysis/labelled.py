@@ -195,8 +195,12 @@ class Labelled(Tabled):
         InputError
             If there is no such quantity or array.
         """
+        are_texts = isinstance(quantity, str) and isinstance(what, str)
+        if are_texts and (quantity, what) in self._kept:
+            return self._kept[quantity, what]  # type: ignore[no-any-return]
         self._check(quantity)
-        inputs.one_of("what", what, self._readings(quantity))
+        if not are_texts or what != VALUES:
+            inputs.one_of("what", what, self._readings(quantity))
         compute = self._compute
         array: NDArray[Any] = self._once(
             (quantity, what), lambda: read_only(np.asarray(compute(quantity, what)))

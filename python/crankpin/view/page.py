@@ -111,8 +111,9 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
     """Return modules of a folder, or of pages, with what they import, each behind its imports.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
-    after the other, without ``import`` and ``export``, they are one module. Comments, indents
-    and most ends of lines are left out: no text goes over several lines.
+    after the other, without ``import`` and ``export``, they are one module. Comments, indents,
+    most ends of lines and spaces around arrows are left out: no text goes over several lines, or
+    has an arrow.
     """
     found: dict[str, str] = {}
 
@@ -123,7 +124,7 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
         for each in IMPORT.findall(text):
             visit(each)
         text = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
-        found[name] = END.sub("", text)
+        found[name] = END.sub("", text).replace(" => ", "=>")
 
     for entry in entries:
         visit(entry)

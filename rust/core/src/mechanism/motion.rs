@@ -207,14 +207,20 @@ impl<'a> MotionColumns<'a> {
     /// Fills them in one loop, since each takes a root and a quotient.
     #[inline(always)]
     pub(crate) fn fill(self, cranks: &Cranks, motion: impl Fn(&CrankPosition) -> Motion) {
-        if self.opposite.is_some() {
-            return self.fill_one_by_one(cranks, &motion);
-        }
         match (self, cranks.0) {
-            (Self { acceleration, velocity: None, jerk: None, lean: None, .. }, _) => {
+            (Self { acceleration, velocity: None, jerk: None, lean: None, opposite: None }, _) => {
                 fill(cranks, [acceleration], |crank| [motion(crank).acceleration]);
             }
-            (Self { acceleration, velocity: Some(velocity), jerk: None, lean: None, .. }, _) => {
+            (
+                Self {
+                    acceleration,
+                    velocity: Some(velocity),
+                    jerk: None,
+                    lean: None,
+                    opposite: None,
+                },
+                _,
+            ) => {
                 fill(cranks, [velocity, acceleration], |crank| {
                     let Motion { velocity, acceleration, .. } = motion(crank);
                     [velocity, acceleration]
@@ -222,7 +228,11 @@ impl<'a> MotionColumns<'a> {
             }
             (
                 Self {
-                    acceleration, velocity: Some(velocity), jerk: Some(jerk), lean: None, ..
+                    acceleration,
+                    velocity: Some(velocity),
+                    jerk: Some(jerk),
+                    lean: None,
+                    opposite: None,
                 },
                 Positions::Turned(units, phase),
             ) => {
@@ -233,7 +243,11 @@ impl<'a> MotionColumns<'a> {
             }
             (
                 Self {
-                    acceleration, velocity: None, jerk: None, lean: Some([slope, secant]), ..
+                    acceleration,
+                    velocity: None,
+                    jerk: None,
+                    lean: Some([slope, secant]),
+                    opposite: None,
                 },
                 Positions::Turned(units, phase),
             ) => {

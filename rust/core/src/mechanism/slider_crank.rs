@@ -128,7 +128,6 @@ impl Proportions {
 
     /// Motion at some positions and half a turn on, of a rod without an offset: what it adds to that of the
     /// crankpin is the same, to the last bit, and so are its root and its quotient.
-    #[inline(always)]
     fn opposite_motions(
         &self,
         cranks: &Cranks,
@@ -137,23 +136,35 @@ impl Proportions {
         [opposite_velocities, opposite_accelerations]: [&mut [f64]; 2],
     ) {
         let Some(velocities) = velocities else {
-            return fill(
-                cranks,
-                [accelerations, opposite_accelerations],
+            let columns = [accelerations, opposite_accelerations];
+            return vectorised(
                 #[inline(always)]
-                |crank| {
-                    let Height { bend, .. } = self.height_at(crank);
-                    [bend - crank.cos, bend + crank.cos]
+                || {
+                    fill(
+                        cranks,
+                        columns,
+                        #[inline(always)]
+                        |crank| {
+                            let Height { bend, .. } = self.height_at(crank);
+                            [bend - crank.cos, bend + crank.cos]
+                        },
+                    );
                 },
             );
         };
-        fill(
-            cranks,
-            [velocities, opposite_velocities, accelerations, opposite_accelerations],
+        let columns = [velocities, opposite_velocities, accelerations, opposite_accelerations];
+        vectorised(
             #[inline(always)]
-            |crank| {
-                let Height { rise, bend, .. } = self.height_at(crank);
-                [rise - crank.sin, rise + crank.sin, bend - crank.cos, bend + crank.cos]
+            || {
+                fill(
+                    cranks,
+                    columns,
+                    #[inline(always)]
+                    |crank| {
+                        let Height { rise, bend, .. } = self.height_at(crank);
+                        [rise - crank.sin, rise + crank.sin, bend - crank.cos, bend + crank.cos]
+                    },
+                );
             },
         );
     }
@@ -224,25 +235,21 @@ impl Mechanism for SliderCrank {
     }
 
     fn motions(&self, cranks: &Cranks, into: MotionColumns) {
-        // Numbers of its own: what loops write might be those of the mechanism.
-        let (proportions, is_centred) = (self.proportions, self.is_centred());
+        if self.is_centred()
+            && let MotionColumns { jerk: None, lean: None, opposite: Some(opposite), .. } = into
+        {
+            let MotionColumns { acceleration, velocity, .. } = into;
+            self.proportions.opposite_motions(cranks, velocity, acceleration, opposite);
+            return;
+        }
         vectorised(
             #[inline(always)]
-            move || match into {
-                MotionColumns {
-                    acceleration,
-                    velocity,
-                    jerk: None,
-                    lean: None,
-                    opposite: Some(opposite),
-                } if is_centred => {
-                    proportions.opposite_motions(cranks, velocity, acceleration, opposite);
-                }
-                into => into.fill(
+            || {
+                into.fill(
                     cranks,
                     #[inline(always)]
-                    |crank| proportions.motion_at(crank),
-                ),
+                    |crank| self.proportions.motion_at(crank),
+                );
             },
         );
     }
@@ -252,16 +259,15 @@ impl Mechanism for SliderCrank {
     }
 
     fn swings(&self, cranks: &Cranks, into: [&mut [f64]; 2]) {
-        let proportions = self.proportions;
         vectorised(
             #[inline(always)]
-            move || {
+            || {
                 fill(
                     cranks,
                     into,
                     #[inline(always)]
                     |crank| {
-                        let Swing { velocity, acceleration } = proportions.swing_at(crank);
+                        let Swing { velocity, acceleration } = self.proportions.swing_at(crank);
                         [velocity, acceleration]
                     },
                 );
