@@ -363,9 +363,12 @@ def plots_as_methods(
 ) -> None:
     """Read the docstring of ``plot``, to autodoc an attribute, as that of the method it is."""
     if isinstance(of, Plot):
-        names = [str(each).partition(":")[0] for each in of.__signature__.parameters.values()]
+        written = of.__signature__
+        _, *others = written.parameters.values()
+        bare = [each.replace(annotation=each.empty) for each in others]
+        written = written.replace(parameters=bare, return_annotation=written.empty)
         read = NumpyDocstring(lines, app.config, app, "method", name, of).lines()
-        lines[:] = [f"``plot({', '.join(names[1:])})``", "", *read]
+        lines[:] = [f"``plot{written}``", "", *read]
 
 
 def whole_docstring(docstring: NumpyDocstring) -> tuple[str, list[str]]:

@@ -65,6 +65,8 @@ def test_the_table_and_the_dictionary_have_the_same_figures() -> None:
         phasor = amplitude * np.exp(1j * phase)
         assert phasor == pytest.approx(found.crank_torque[cylinder, order])
     assert given["angular_frequency"][0] == pytest.approx(0.5 * 100 * np.pi)
+    # As programs do that take them for numbers.
+    assert [float(omega) for omega in found.angular_frequency] == given["angular_frequency"]
 
 
 @pytest.mark.parametrize("engine", [I4, V6, V6.with_cycle(None)], ids=["I4", "V6", "not fired"])

@@ -17,7 +17,8 @@ Quantity = cp.results.Quantity
 every_object = in_turn("name", OBJECTS)
 RANDOM = np.random.default_rng(1)
 NOT_QUANTITIES = {
-    "BearingLoads": {"main_z", "z", "shares"}  # places, and shares of places
+    "BearingLoads": {"main_z", "z", "shares"},  # places, and shares of places
+    "TorsionalExcitation": {"angular_frequency"},  # what an order is at a speed
 }
 """Class → its arrays of numbers that are neither quantities nor coordinates."""
 

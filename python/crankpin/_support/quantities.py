@@ -164,8 +164,6 @@ EXCITATIONS = {
         Kind("mean_torque", "mean torque", ("T",), ("on the crank",), "N·m", **_BY_CYLINDER),
         Kind("reciprocating_inertia", "mean moment of inertia of piston and rod", ("J",),
              ("about the crank",), "kg·m²", **_BY_CYLINDER),
-        Kind("angular_frequency", "angular frequency", ("ω",), ("of an order",), "rad/s",
-             real=True),
         Kind("tangential_pressure", "tangential pressure", ("|p|",), ("on the crank",), "Pa",
              dims=("cylinder",), without=("rpm",)),
     )

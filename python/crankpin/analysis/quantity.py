@@ -459,16 +459,13 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         return super().__len__() if self._by_order else len(np.asarray(self))
 
     def __iter__(self) -> Iterator[Any]:
-        # Loops are over frequencies themselves, not over their orders.
-        by_order = self._by_order and not self.kind.real
-        return super().__iter__() if by_order else iter(np.asarray(self))
+        return super().__iter__() if self._by_order else iter(np.asarray(self))
 
     def __contains__(self, value: object) -> bool:
         return super().__contains__(value) if self._by_order else bool(np.any(self == value))
 
     def __reversed__(self) -> Iterator[Any]:
-        by_order = self._by_order and not self.kind.real
-        return super().__reversed__() if by_order else reversed(np.asarray(self))
+        return super().__reversed__() if self._by_order else reversed(np.asarray(self))
 
     @overload
     def __getitem__(

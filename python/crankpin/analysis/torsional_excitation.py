@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import EXCITATIONS
-from crankpin._support.record import changed
+from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import contributions
@@ -96,10 +96,6 @@ class TorsionalExcitation(Labelled):
             return np.array(means or [0.0] * len(self.engine))
         if quantity == "reciprocating_inertia":
             return _core.mean_inertias(engine_core(self.engine))
-        if quantity == "angular_frequency":
-            omega = np.array([inputs.angular_speed(rpm) for rpm in np.ravel(self.rpm)])
-            outer = np.multiply.outer(omega, np.array(self.orders, dtype=np.float64))
-            return outer if self.coords else outer[0]  # type: ignore[no-any-return]
         if quantity == "tangential_pressure":
             return self._pressures()
         return inertia if quantity == "crank_torque.inertia" else gas + inertia
@@ -119,10 +115,15 @@ class TorsionalExcitation(Labelled):
         """Mean torque of each cylinder, N·m: (n_cylinders,)."""
         return self._quantity("mean_torque")
 
-    @property
-    def angular_frequency(self) -> Quantity[np.float64]:
-        """Angular frequencies of the orders, rad/s: (n_orders,), of speeds (n_rpm, n_orders)."""
-        return self._quantity("angular_frequency")
+    @functools.cached_property
+    def angular_frequency(self) -> NDArray[np.float64]:
+        """Angular frequencies of the orders, rad/s: (n_orders,), of speeds (n_rpm, n_orders).
+
+        As ``orders`` and ``rpm`` an array without labels: programs loop over frequencies.
+        """
+        omega = np.array([inputs.angular_speed(rpm) for rpm in np.ravel(self.rpm)])
+        outer = np.multiply.outer(omega, np.array(self.orders, dtype=np.float64))
+        return read_only(outer if self.coords else outer[0])
 
     @property
     def reciprocating_inertia(self) -> Quantity[np.float64]:
@@ -165,7 +166,7 @@ class TorsionalExcitation(Labelled):
         several = f"{min(at):.10g} to {max(at):.10g}" if np.ndim(self.rpm) else f"{at[0]:.10g}"
         title = f"TorsionalExcitation of {labels.name_of(self.engine)}: torque on the crank, "
         torque = np.asarray(self.crank_torque)
-        columns = [Column("frequency", self._of_rows(np.asarray(self.angular_frequency)), "rad/s")]
+        columns = [Column("frequency", self._of_rows(self.angular_frequency), "rad/s")]
         columns += [
             Column("amplitude", np.abs(torque), "N·m"),
             Column("phase", np.angle(torque), "rad"),

@@ -24,11 +24,9 @@ if TYPE_CHECKING:
 QUARTER = 90.0
 """Phase error, degrees, at which no step converges."""
 MOST_UPDATES = 1_000_000
+"""Updates that are followed."""
 MOST_UPDATE_DELAYS = 100
 """Largest delay in updates: rates are roots of polynomials of that degree."""
-"""Updates that are followed."""
-TENTH = 20.0
-"""Decibels of a tenth."""
 
 
 class AdaptiveLaw(Tabled):
