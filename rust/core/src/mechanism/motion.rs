@@ -189,7 +189,7 @@ pub struct MotionColumns<'a> {
     pub jerk: Option<&'a mut [f64]>,
     /// Slope and secant of the rod's angle to the bore.
     pub lean: Option<[&'a mut [f64]; 2]>,
-    /// Velocity, if that is wanted, and acceleration where the crank is half a turn on.
+    /// Velocity and acceleration where the crank is half a turn on.
     pub opposite: Option<[&'a mut [f64]; 2]>,
 }
 
@@ -281,10 +281,7 @@ impl<'a> MotionColumns<'a> {
             }
             if let Some([velocity, acceleration]) = &mut self.opposite {
                 let motion = at_opposite(i);
-                acceleration[i] = motion.acceleration;
-                if self.velocity.is_some() {
-                    velocity[i] = motion.velocity;
-                }
+                (velocity[i], acceleration[i]) = (motion.velocity, motion.acceleration);
             }
         }
     }

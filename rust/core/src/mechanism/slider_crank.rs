@@ -126,33 +126,12 @@ impl Proportions {
         Height { value: height, inverse, secant, rise, bend }
     }
 
-    /// Motion at some positions and half a turn on, of a rod without an offset: what it adds to that of the
-    /// crankpin is the same, to the last bit, and so are its root and its quotient.
-    fn opposite_motions(
-        &self,
-        cranks: &Cranks,
-        velocities: Option<&mut [f64]>,
-        accelerations: &mut [f64],
-        [opposite_velocities, opposite_accelerations]: [&mut [f64]; 2],
-    ) {
-        let Some(velocities) = velocities else {
-            let columns = [accelerations, opposite_accelerations];
-            return vectorised(
-                #[inline(always)]
-                || {
-                    fill(
-                        cranks,
-                        columns,
-                        #[inline(always)]
-                        |crank| {
-                            let Height { bend, .. } = self.height_at(crank);
-                            [bend - crank.cos, bend + crank.cos]
-                        },
-                    );
-                },
-            );
-        };
-        let columns = [velocities, opposite_velocities, accelerations, opposite_accelerations];
+    /// Velocity and acceleration at some positions and half a turn on, of a rod without an offset: what it adds
+    /// to those of the crankpin is the same, to the last bit, and so are its root and its quotient.
+    fn opposite_motions(&self, cranks: &Cranks, here: [&mut [f64]; 2], opposite: [&mut [f64]; 2]) {
+        let ([velocity, acceleration], [opposite_velocity, opposite_acceleration]) =
+            (here, opposite);
+        let columns = [velocity, opposite_velocity, acceleration, opposite_acceleration];
         vectorised(
             #[inline(always)]
             || {
@@ -235,13 +214,22 @@ impl Mechanism for SliderCrank {
     }
 
     fn motions(&self, cranks: &Cranks, into: MotionColumns) {
-        if self.is_centred()
-            && let MotionColumns { jerk: None, lean: None, opposite: Some(opposite), .. } = into
-        {
-            let MotionColumns { acceleration, velocity, .. } = into;
-            self.proportions.opposite_motions(cranks, velocity, acceleration, opposite);
-            return;
-        }
+        let into = match into {
+            MotionColumns {
+                acceleration,
+                velocity: Some(velocity),
+                jerk: None,
+                lean: None,
+                opposite: Some(opposite),
+            } if self.is_centred() => {
+                return self.proportions.opposite_motions(
+                    cranks,
+                    [velocity, acceleration],
+                    opposite,
+                );
+            }
+            into => into,
+        };
         vectorised(
             #[inline(always)]
             || {

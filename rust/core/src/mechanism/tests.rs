@@ -67,7 +67,7 @@ fn check_columns(mechanism: &dyn Mechanism, [cranks, single]: [&Cranks; 2], want
             wanted[1].then_some(motion.jerk),
             lean[0],
             lean[1],
-            (wanted[3] && wanted[0]).then_some(opposite.velocity),
+            wanted[3].then_some(opposite.velocity),
             wanted[3].then_some(opposite.acceleration),
             Some(swing.velocity),
             Some(swing.acceleration),
@@ -95,6 +95,22 @@ fn check(mechanism: &dyn Mechanism) {
             check_columns(mechanism, [&cranks, &turned], [1, 2, 4, 8].map(|bit| wanted & bit != 0));
         }
     }
+    // Half a turn on they are what is evaluated there, to the last bit.
+    let mut columns = vec![vec![f64::NAN; SAMPLES]; 6];
+    let [velocity, acceleration, opposite @ .., velocity_there, acceleration_there] =
+        &mut columns[..]
+    else {
+        unreachable!("six of them")
+    };
+    let opposite = opposite.as_chunks_mut().0.first_mut();
+    let opposite = opposite.map(|both| both.each_mut().map(|own: &mut Vec<f64>| &mut own[..]));
+    mechanism.motions(
+        &turned,
+        MotionColumns { opposite, ..MotionColumns::of_both([velocity, acceleration]) },
+    );
+    let there = Cranks::new(&cos, &sin, -phase);
+    mechanism.motions(&there, MotionColumns::of_both([velocity_there, acceleration_there]));
+    assert_eq!(columns[2..4], columns[4..]);
     // Derivatives: order n of each is i·n times that of the one before.
     let series = [
         phasors(|crank| at(crank).position),

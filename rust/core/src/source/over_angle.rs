@@ -135,7 +135,7 @@ pub struct AngleBlock<'a> {
 struct OppositeMotion {
     /// Of which, and `e^{−iφ}` of its phase, until it is used.
     of: Option<(DrivenMechanism, Complex64)>,
-    /// Velocity, if that was wanted, and acceleration.
+    /// Velocity and acceleration.
     columns: Box<[AngleColumn; 2]>,
 }
 
@@ -183,7 +183,7 @@ impl<'a> AngleBlock<'a> {
         }
         let [velocity, acceleration] = &mut *scratch;
         let mut motion = MotionColumns::of(acceleration);
-        motion.velocity = wants_velocity.then_some(&mut velocity[..]);
+        motion.velocity = (wants_velocity || shares).then_some(&mut velocity[..]);
         if shares {
             let OppositeMotion { of, columns } = &mut opposites[place];
             *of = Some((mechanism.clone(), -sum.turned));
