@@ -6,12 +6,13 @@ import inspect
 import re
 import sys
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from crankpin._support import calls
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable
     from types import ModuleType
 
 NO_MEMORY = re.compile("failed to map segment|cannot allocate|paging file", re.IGNORECASE)
@@ -28,23 +29,33 @@ def imported(name: str) -> ModuleType:
         raise
 
 
-def attributes(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str], object]:
-    """Return the ``__getattr__`` of a module (PEP 562), which keeps what was read.
+def attach(
+    module: str, file: str
+) -> tuple[list[str], Callable[[str], object], Callable[[], list[str]]]:
+    """Return ``__all__``, ``__getattr__`` (PEP 562) and ``__dir__`` of a module of others' names.
+
+    They are those of the stub beside it, each line ``from home import name as name``: one list
+    for type checkers, for completion and of what is imported at first use.
 
     Parameters
     ----------
     module
         Name of the module.
-    homes
-        Name of another module → the attributes that are that module's, or its own name.
+    file
+        Its file.
     """
-    home_of = {name: home for home, names in homes.items() for name in names}
+    stub = Path(file).with_suffix(".pyi").read_text(encoding="utf-8")
+    lines = (line.split() for line in stub.splitlines() if line.startswith("from "))
+    homes = {name: home for _, home, _, name, *_ in lines}
+    names = list(homes)
 
     def attribute(name: str) -> object:
-        if name not in home_of:
+        if name not in homes:
             raise AttributeError(f"module {module!r} has no attribute {name!r}")
-        home = imported(home_of[name])
-        value = home if home.__name__ == f"{module}.{name}" else getattr(home, name)
+        if homes[name] == module:
+            return imported(f"{module}.{name}")
+        home = imported(homes[name])
+        value = getattr(home, name)
         if inspect.isfunction(value):
             value = calls.guided(value)
             setattr(home, name, value)  # where pickles look
@@ -55,4 +66,4 @@ def attributes(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str
         setattr(sys.modules[module], name, value)
         return value
 
-    return attribute
+    return names, attribute, lambda: names
