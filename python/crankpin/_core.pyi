@@ -30,6 +30,7 @@ __all__ = [
     "Firing",
     "FirstOrder",
     "InputError",
+    "MeasuredParts",
     "Objectives",
     "Powertrain",
     "Response",
@@ -79,7 +80,6 @@ __all__ = [
     "listed_orders",
     "load_rows",
     "masses_on_pins",
-    "matched",
     "mean_inertias",
     "motion",
     "mount_stiffness",
@@ -555,14 +555,21 @@ class Objectives:
         self, x: Sequence[float], mu: float, objectives: int
     ) -> tuple[float, list[float]]: ...
 
-def matched(
-    spread: bool,
-    start: Sequence[float],
-    kinds: Sequence[tuple[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]]]],
-    sets: int,
-    starts: Sequence[Sequence[Sequence[int]]],
-    progress: _Progress | None,
-) -> tuple[list[list[int]], float, float, bool]: ...
+@final
+class MeasuredParts:
+    def __new__(
+        cls,
+        engine: Engine,
+        by: str,
+        orders: Sequence[int],
+        pistons: Sequence[float] | _Real,
+        ends: Sequence[Sequence[float] | _Real] | None,
+    ) -> MeasuredParts: ...
+    def value(self, chosen: Sequence[Sequence[int]]) -> float: ...
+    def matched(
+        self, sets: int, starts: Sequence[Sequence[Sequence[int]]], progress: _Progress | None
+    ) -> tuple[list[list[int]], float, bool]: ...
+
 def orders_of_samples(
     engine: Engine, rpm: float, rtol: float, torque: bool
 ) -> tuple[list[int], tuple[float, float, float]]: ...

@@ -10,6 +10,7 @@ pub mod exact;
 pub mod explain;
 pub mod figures;
 pub mod flywheel;
+pub mod measured_parts;
 pub mod mount_designs;
 pub mod mounted;
 pub mod peaks;
