@@ -64,7 +64,7 @@ mod _core {
         flywheel::{CycleGrid, mean_inertias},
         matching::MeasuredParts,
         mounts::{
-            Powertrain, Response, check_mount, check_support, mount_stiffness,
+            MountObjectives, Powertrain, Response, check_mount, check_support, mount_stiffness,
             peaks_of_vectors, rigid_body,
         },
         pressure::{Cycle, places_on_axis, repeats_first, volume_ratios},

@@ -12,6 +12,7 @@ pub mod figures;
 pub mod flywheel;
 pub mod measured_parts;
 pub mod mount_designs;
+pub mod mount_objectives;
 pub mod mounted;
 pub mod peaks;
 pub mod quantity;
