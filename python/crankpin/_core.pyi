@@ -30,6 +30,8 @@ __all__ = [
     "Firing",
     "FirstOrder",
     "InputError",
+    "MeasuredParts",
+    "MountObjectives",
     "Objectives",
     "Powertrain",
     "Response",
@@ -79,7 +81,6 @@ __all__ = [
     "listed_orders",
     "load_rows",
     "masses_on_pins",
-    "matched",
     "mean_inertias",
     "motion",
     "mount_stiffness",
@@ -555,14 +556,38 @@ class Objectives:
         self, x: Sequence[float], mu: float, objectives: int
     ) -> tuple[float, list[float]]: ...
 
-def matched(
-    spread: bool,
-    start: Sequence[float],
-    kinds: Sequence[tuple[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]]]],
-    sets: int,
-    starts: Sequence[Sequence[Sequence[int]]],
-    progress: _Progress | None,
-) -> tuple[list[list[int]], float, float, bool]: ...
+@final
+class MountObjectives:
+    def __new__(
+        cls,
+        powertrain: Powertrain,
+        engine: Engine,
+        variables: Sequence[tuple[int, str]],
+        objectives: Sequence[tuple[str, float | None]],
+        rpm: Sequence[float] | _Real,
+        frequency: float | None,
+        roll: tuple[float, bool],
+    ) -> MountObjectives: ...
+    def values(self, values: Sequence[float] | _Real) -> list[float]: ...
+    def frequencies(self, values: Sequence[float] | _Real) -> list[float]: ...
+    def equations(self, values: Sequence[float] | _Real) -> tuple[_Real, list[float]]: ...
+    def mounts(self, values: Sequence[float] | _Real) -> list[Any]: ...
+
+@final
+class MeasuredParts:
+    def __new__(
+        cls,
+        engine: Engine,
+        by: str,
+        orders: Sequence[int],
+        pistons: Sequence[float] | _Real,
+        ends: Sequence[Sequence[float] | _Real] | None,
+    ) -> MeasuredParts: ...
+    def value(self, chosen: Sequence[Sequence[int]]) -> float: ...
+    def matched(
+        self, sets: int, starts: Sequence[Sequence[Sequence[int]]], progress: _Progress | None
+    ) -> tuple[list[list[int]], float, bool]: ...
+
 def orders_of_samples(
     engine: Engine, rpm: float, rtol: float, torque: bool
 ) -> tuple[list[int], tuple[float, float, float]]: ...
@@ -782,6 +807,8 @@ class Powertrain:
     def support(self) -> tuple[Any, ...] | None: ...
     def deflections(self) -> _Real: ...
     def unit_mass(self) -> _Real: ...
+    def roll(self) -> tuple[float, float]: ...
+    def torque_in_one_mode(self, frequency: float | None) -> float: ...
     @property
     def all_names(self) -> list[str]: ...
     def require_ground(self) -> None: ...

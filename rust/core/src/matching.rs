@@ -8,6 +8,8 @@
 //! after another until a matching is at the bound.
 
 mod exhaustive;
+mod reduced;
+pub(crate) mod spread;
 
 use std::mem;
 
@@ -132,6 +134,11 @@ impl PartKind {
             by_place.extend(influences.iter().map(|unit| unit[place][k]));
         }
         Ok(Self { parts, deviations, influences, by_place })
+    }
+
+    /// The parts in the order of the sums of their deviations.
+    pub(crate) fn rising(&self) -> Vec<usize> {
+        spread::sorted(self.parts, |part| self.deviations.iter().map(|of| of[part]).sum())
     }
 
     /// Influences in a place: (dimensions, figures).

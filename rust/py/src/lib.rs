@@ -62,10 +62,10 @@ mod _core {
         },
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
-        matching::matched,
+        matching::MeasuredParts,
         mounts::{
-            Powertrain, Response, check_mount, check_support, mount_stiffness, peaks_of_vectors,
-            rigid_body,
+            MountObjectives, Powertrain, Response, check_mount, check_support, mount_stiffness,
+            peaks_of_vectors, rigid_body,
         },
         pressure::{Cycle, places_on_axis, repeats_first, volume_ratios},
         search::{BankAngles, Search, arrangement},

@@ -7,6 +7,7 @@ use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
+use crankpin_core::mount_objectives::{self, MountObjective, MountVariable};
 use crankpin_core::mounted::{ActuatorForces, Derivative};
 use crankpin_core::mounts::{
     self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
@@ -349,6 +350,18 @@ impl Powertrain {
         frozen(py, Array2::from_shape_fn((6, 6), |place| unit[place]))
     }
 
+    /// Part of the reaction to a roll about the torque roll axis that is no torque of the crank, and the frequency
+    /// of that roll, Hz.
+    fn roll(&self) -> PyResult<(f64, f64)> {
+        let reaction = self.0.roll_reaction().or_raise()?;
+        Ok((reaction.across().norm(), reaction.frequency()))
+    }
+
+    /// Largest share of one mode in the effect of a torque of the crank, %.
+    fn torque_in_one_mode(&self, frequency: Option<f64>) -> PyResult<f64> {
+        self.0.torque_in_one_mode(frequency).or_raise()
+    }
+
     fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
         let found = mounts::modes(&self.0, frequency).or_raise()?;
         let square = |matrix: &nalgebra::DMatrix<f64>| {
@@ -621,6 +634,84 @@ impl Response {
     fn power<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = interrupt::run(py, |cancel| self.core.power(cancel))?;
         self.shaped(py, rows.concat(), &[2 + self.mounts])
+    }
+}
+
+/// Objectives of an engine on mounts that vary.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct MountObjectives(mount_objectives::MountObjectives);
+
+#[guarded]
+#[pymethods]
+impl MountObjectives {
+    /// Variables are mounts and what varies of them; roll the square of its angular speed, and whether it is required.
+    #[new]
+    fn new(
+        powertrain: &Bound<'_, Powertrain>,
+        engine: &Bound<'_, Engine>,
+        variables: Vec<(usize, String)>,
+        objectives: Vec<(String, Option<OrderNumber>)>,
+        rpm: Vec<f64>,
+        frequency: Option<f64>,
+        roll: (f64, bool),
+    ) -> PyResult<Self> {
+        let kinds = [
+            ("stiffness", MountVariable::Stiffness),
+            ("tilt_deg", MountVariable::Tilt),
+            ("x", MountVariable::Along(0)),
+            ("y", MountVariable::Along(1)),
+            ("z", MountVariable::Along(2)),
+        ];
+        let variables = variables
+            .into_iter()
+            .map(|(mount, kind)| Ok((mount, choice("vary", &kind, &kinds)?)))
+            .collect::<PyResult<_>>()?;
+        let objective = |(name, order): (String, Option<OrderNumber>)| {
+            let order = order.map(|order| convert::orders(&[order])).transpose()?;
+            Ok(match (&*name, order.as_deref()) {
+                ("body_force", Some(&[order])) => MountObjective::BodyForce(order),
+                ("mount_force", Some(&[order])) => MountObjective::MountForce(order),
+                ("purity", _) => MountObjective::Purity,
+                _ => MountObjective::Decoupling,
+            })
+        };
+        let objectives = objectives.into_iter().map(objective).collect::<PyResult<_>>()?;
+        let (engine, base) = (engine.get().0.as_ref().clone(), powertrain.get().0.as_ref().clone());
+        Ok(Self(mount_objectives::MountObjectives {
+            engine,
+            base,
+            variables,
+            objectives,
+            rpm,
+            frequency,
+            roll,
+        }))
+    }
+
+    /// The objectives, with norms in place of maxima.
+    fn values(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Vec<f64>> {
+        interrupt::run(py, |cancel| self.0.values(&values, cancel))
+    }
+
+    /// Natural frequencies, Hz.
+    fn frequencies(&self, values: Vec<f64>) -> PyResult<Vec<f64>> {
+        self.0.frequencies(&values).or_raise()
+    }
+
+    /// Linear equations of decoupling: a row for each stiffness that varies, and the right side.
+    fn equations<'py>(
+        &self,
+        py: Python<'py>,
+        values: Vec<f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, [f64; 6])> {
+        let (columns, right) = self.0.equations(&values).or_raise()?;
+        let columns: Vec<[f64; 6]> = columns.into_iter().map(Into::into).collect();
+        Ok((frozen(py, Array2::from(columns))?, right.into()))
+    }
+
+    /// The mounts with these values.
+    fn mounts(&self, values: Vec<f64>) -> PyResult<Vec<Figures>> {
+        Ok(mount_figures(&self.0.design(&values).or_raise()?))
     }
 }
 

@@ -1,9 +1,7 @@
 """Design of mounts: stiffness, place and tilt for decoupling, frequencies and forces.
 
-A torque of the crank excites one mode alone iff K(0, t) ∥ (0, e_z) with t = I⁻¹e_z (Jeong and
-Singh, J. Sound Vib. 235 (2000)): in units in which the mass matrix is 1, with u the direction of
-M⁻½(0, e_z), K̃u = ω²u. These are linear equations in the stiffnesses. Other questions go to a
-bounded optimiser from several starts.
+The core has the objectives: decoupling, of which the equations are linear in the stiffnesses,
+purity of modes, forces. A bounded optimiser minimises them from several starts.
 """
 
 from __future__ import annotations
@@ -14,12 +12,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels, lazy, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
+from crankpin.analysis.request import engine_core
+from crankpin.model.mounts import Mount
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
-    from crankpin.model.mounts import Mount
 
     Real: TypeAlias = NDArray[np.float64]
     Objective: TypeAlias = tuple[str, Order | None]
@@ -38,8 +38,6 @@ KINDS = ("stiffness", "tilt_deg", "x", "y", "z")
 PAIRS = "give lowest and highest, or three such pairs, one for each axis"
 FORCE = re.compile(r"(mount_force|body_force)\[(\d+(?:\.[05])?)\]")
 """Objective of an order."""
-POWER = 8.0
-"""Exponent of the norm that stands for a maximum while it is optimised: a maximum has edges."""
 NEAREST = 1e-5
 """Weight of changes of stiffness beside equations: of equal solutions the nearest is taken."""
 NOTHING = 1e-10
@@ -266,8 +264,6 @@ class Question:
         self.ratio = None if ratio is None else _range("ratio", ratio)
         self.window = None if modes_between is None else _range("modes_between", modes_between)
         self._bounds(bounds)
-        self._unit_mass = powertrain._core.unit_mass()
-        self._roll = self._unit_mass[5] / np.linalg.norm(self._unit_mass[5])
         if "stiffness" in {kind for _, kind in self.varied} or ("decoupling", None) in (
             self.objectives
         ):
@@ -277,14 +273,24 @@ class Question:
                     raise inputs.faulty(
                         f"table of mount {mount.name!r}", "has many frequencies", hint
                     )
-        hertz = self._roll_frequency(powertrain)
+        _, hertz = powertrain._core.roll()
         if roll_frequency is not None:
             hertz = inputs.positive("roll_frequency", roll_frequency)
         if hertz <= 0.0:
             raise inputs.rejected("roll_frequency", roll_frequency, "give Hz, more than zero")
-        self.square = (2.0 * np.pi * hertz) ** 2
+        self.roll_frequency = hertz
         self.keeps_roll = roll_frequency is not None
+        self._frequency = hertz if powertrain._varies else None
         self._scales: list[float] = []
+        self._core = _core.MountObjectives(
+            powertrain._core,
+            engine_core(powertrain.engine),
+            self.varied,
+            self.objectives,
+            [] if self.rpm is None else self.rpm,
+            self._frequency,
+            ((2.0 * np.pi * hertz) ** 2, self.keeps_roll),
+        )
 
     def _varied(self, vary: Any) -> list[tuple[int, str]]:  # noqa: ANN401 - checked here
         """Return mount and kind of each thing that varies."""
@@ -364,109 +370,38 @@ class Question:
 
     def made(self, values: Real) -> Powertrain:
         """Return the powertrain of some values."""
-        mounts = list(self.powertrain.mounts)
-        for place, kind, where in self._places():
-            mount, given = mounts[place], values[where].tolist()
-            if kind == "stiffness":
-                old = np.array(_dynamic(mount))
-                share = np.divide(given, old, out=np.ones(3), where=old > 0.0)
-                changes: dict[str, Any] = {
-                    "stiffness": tuple((np.array(mount.stiffness) * share).tolist())
-                }
-                if mount.dynamic_stiffness is not None or not (old > 0.0).all():
-                    changes["dynamic_stiffness"] = tuple(given)
-            elif kind == "tilt_deg":
-                changes = {"tilt_deg": given[0]}
-            else:
-                at = list(mount.at)
-                at["xyz".index(kind)] = given[0]
-                changes = {"at": tuple(at)}
-            mounts[place] = mount.replace(**changes)
+        mounts, designed = list(self.powertrain.mounts), self._core.mounts(values)
+        for place, _ in self.varied:
+            mounts[place] = Mount._of(designed[place])
         return self.powertrain.replace(mounts=mounts)
 
-    def _reactions(self, powertrain: Powertrain) -> Real:
-        """Return K̃u of each stiffness of 1 N/m: (6, 3 × n_mounts)."""
-        rows = powertrain._core.deflections().reshape(-1, 6) @ self._unit_mass
-        return np.asarray((rows * (rows @ self._roll)[:, None]).T)
-
-    def _reaction(self, powertrain: Powertrain) -> Real:
-        """Return K̃u: six numbers."""
-        return np.asarray(self._reactions(powertrain) @ _dynamics(powertrain).ravel())
-
-    def _across(self, powertrain: Powertrain) -> Real:
-        """Return the part of K̃u that is no torque of the crank, over the length of K̃u."""
-        reaction = self._reaction(powertrain)
-        length = float(np.linalg.norm(reaction))
-        across = reaction - (self._roll @ reaction) * self._roll
-        return np.asarray(across / length if length else across)
-
-    def coupling(self, powertrain: Powertrain) -> Real:
-        """Return what keeps K̃u from ω²u, over its length or ω²: six numbers."""
-        if self.keeps_roll:
-            return np.asarray(self._reaction(powertrain) / self.square - self._roll)
-        return self._across(powertrain)
-
-    def _share(self, powertrain: Powertrain) -> float:
-        """Return the part of the reaction that is no torque of the crank, 0 to 1."""
-        return float(np.linalg.norm(self._across(powertrain)))
-
-    def _roll_frequency(self, powertrain: Powertrain) -> float:
-        quotient = float(self._roll @ self._reaction(powertrain))
-        return float(np.sqrt(max(quotient, 0.0)) / (2.0 * np.pi))
-
-    def _force(self, powertrain: Powertrain, name: str, order: Order, *, smooth: bool) -> float:
+    def _force(self, powertrain: Powertrain, name: str, order: Order) -> float:
         response = powertrain.response(self.rpm, orders=[order])  # type: ignore[arg-type] # given
-        if name == "body_force":
-            peaks = np.ravel(response.body_force.peak)
-        else:
-            peaks = np.ravel(np.moveaxis(response.read("mount_force", "peak"), -1, 0))
-        largest = float(peaks.max())
-        if not smooth or largest == 0.0:
-            return largest
-        return largest * float(((peaks / largest) ** POWER).mean() ** (1.0 / POWER))
-
-    def _merits(self, powertrain: Powertrain) -> list[float]:
-        """Return the objectives as the optimiser sees them."""
-        found = []
-        for name, order in self.objectives:
-            if name == "purity":
-                lacks = 1.0 - self._purities(powertrain) / 100.0
-                found.append(float((np.abs(lacks) ** POWER).mean() ** (1.0 / POWER)))
-            elif order is None:
-                found.append(float((self.coupling(powertrain) ** 2).sum()))
-            else:
-                found.append(self._force(powertrain, name, order, smooth=True))
-        return found
+        return float(np.max(response.read(name, "peak")))
 
     def _purities(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._at_frequency()).purity
+        return powertrain.modes(self._frequency).purity
 
     def _modes(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._at_frequency()).frequency
-
-    def _at_frequency(self) -> float | None:
-        return float(np.sqrt(self.square) / (2.0 * np.pi)) if self.powertrain._varies else None
+        return powertrain.modes(self._frequency).frequency
 
     # --- the search -------------------------------------------------------------------------------
 
     def linear(self) -> Real:
         """Return the values nearest to decoupling, stiffnesses alone, others as they are."""
         optimize = optional.library("scipy.optimize")
-        base, own = self.made(self.start), np.zeros(len(self.powertrain.mounts) * 3)
-        own[:] = _dynamics(base).ravel()
-        reaction = self._reactions(base)
-        free, columns = [], []
-        for place, kind, where in self._places():
-            if kind == "stiffness":
-                free += list(range(where.start, where.stop))
-                columns += [3 * place + k for k in range(3)]
-        fixed = np.setdiff1d(np.arange(len(own)), columns)
+        free = [
+            column
+            for _, kind, where in self._places()
+            if kind == "stiffness"
+            for column in range(where.start, where.stop)
+        ]
+        equations, wanted = self._core.equations(self.start)
         scale = self.high[free]
-        rows = reaction[:, columns] * scale / self.square
-        right = self._roll - reaction[:, fixed] @ own[fixed] / self.square
+        rows = equations.T * scale
         near = NEAREST * np.eye(len(free))
         rows = np.vstack([rows, near])
-        right = np.concatenate([right, near @ (self.start[free] / scale)])
+        right = np.concatenate([wanted, near @ (self.start[free] / scale)])
         low = self.low[free] / scale
         ratio = self.ratio
         if ratio is None:
@@ -499,10 +434,11 @@ class Question:
         begins = [self.start, self.linear()] if "stiffness" in kinds else [self.start]
         while len(begins) < starts:
             begins.append(self._value(random.uniform(size=len(self.low))))
-        base = self.made(self.start)
         self._scales = [
             max(value, 1e-300) if order is not None else 1.0
-            for value, (_, order) in zip(self._merits(base), self.objectives, strict=True)
+            for value, (_, order) in zip(
+                self._core.values(self.start), self.objectives, strict=True
+            )
         ]
         found = []
         with progress_bar.shown(progress, "mount designs") as shown:
@@ -550,7 +486,7 @@ class Question:
                 ratios = np.array([k[0] / other for k in stiff for other in k[1:]])
                 parts += [np.log(ratios / self.ratio[0]), np.log(self.ratio[1] / ratios)]
         if self.window is not None:
-            modes = self._modes(self.made(values))
+            modes = self._core.frequencies(values)
             low, high = self.window
             parts += [np.array([modes[0] / low - 1.0, 1.0 - modes[-1] / high])]
         return np.concatenate(parts) if parts else np.empty(0)
@@ -560,7 +496,7 @@ class Question:
         optimize = optional.library("scipy.optimize")
 
         def merit(unit: Real) -> float:
-            values = self._merits(self.made(self._value(np.clip(unit, 0.0, 1.0))))
+            values = self._core.values(self._value(np.clip(unit, 0.0, 1.0)))
             return sum(a / b for a, b in zip(values, self._scales, strict=True))
 
         required: Callable[[Real], Real] = lambda unit: self._required(np.clip(unit, 0.0, 1.0))  # noqa: E731
@@ -594,22 +530,22 @@ class Question:
                 pairs.append(tuple(float(self._purities(each).min()) for each in both))
             elif order is None:
                 names.append("decoupling")
-                pairs.append(tuple(self._share(each) for each in (self.powertrain, fitted)))
+                pairs.append(tuple(each._core.roll()[0] for each in (self.powertrain, fitted)))
             else:
                 names.append(f"{name}[{order}] N")
-                old, new = (
-                    self._force(each, name, order, smooth=False)
-                    for each in (self.powertrain, fitted)
-                )
+                old, new = (self._force(each, name, order) for each in (self.powertrain, fitted))
                 pairs.append((old, new))
             limits.append(None)
         if ("decoupling", None) in self.objectives:
             names += ["torque in one mode %", "roll frequency Hz"]
             pairs += [
-                tuple(self._in_one_mode(each) for each in (self.powertrain, fitted)),
-                tuple(self._roll_frequency(each) for each in (self.powertrain, fitted)),
+                tuple(
+                    each._core.torque_in_one_mode(self._frequency)
+                    for each in (self.powertrain, fitted)
+                ),
+                tuple(each._core.roll()[1] for each in (self.powertrain, fitted)),
             ]
-            target = float(np.sqrt(self.square) / (2.0 * np.pi))
+            target = self.roll_frequency
             # Reached to a thousandth: rubber scatters by more.
             limits += [None, (0.999 * target, 1.001 * target) if self.keeps_roll else None]
         if self.window is not None:
@@ -647,13 +583,6 @@ class Question:
         stiff = [_dynamic(powertrain.mounts[place]) for place in places]
         return [k[0] / other if other else np.inf for k in stiff for other in k[1:]] or [1.0]
 
-    def _in_one_mode(self, powertrain: Powertrain) -> float:
-        """Return the largest share of one mode, or group of them, in the effect of a torque, %."""
-        modes = powertrain.modes(self._at_frequency())
-        shares = modes.shapes[5] ** 2
-        groups = [sum(shares[k - 1] for k in group) for group in modes.groups]
-        return float(100.0 * max(groups) / shares.sum())
-
 
 def _ratios(values: Real, ratio: tuple[float, float]) -> Real:
     """Return what is above zero where ratios of stiffnesses are within theirs."""
@@ -667,10 +596,6 @@ def _dynamic(mount: Mount) -> tuple[float, float, float]:
     """Return the dynamic stiffness along the axes, N/m, without loss."""
     given: Any = mount.stiffness if mount.dynamic_stiffness is None else mount.dynamic_stiffness
     return given  # type: ignore[no-any-return]
-
-
-def _dynamics(powertrain: Powertrain) -> Real:
-    return np.array([_dynamic(mount) for mount in powertrain.mounts])
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -12,19 +11,13 @@ from crankpin import _core
 from crankpin._support import inputs, lazy
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
-from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import Record
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
-from crankpin.analysis.balance import over_square
-from crankpin.analysis.contributions import contributions, phasors
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders
@@ -44,17 +37,6 @@ STARTS = 24
 """Random starts of the search by exchanges."""
 SPREAD_STARTS = 4000
 """Starts of the search for the least spread, over the number of pistons."""
-MOST_EXCHANGED = 64
-"""Cylinders of an engine up to which parts are exchanged for the least spread."""
-
-
-class Kind(NamedTuple):
-    """Parts of one kind, such as pistons or rods."""
-
-    parts: NDArray[np.float64]
-    """Deviations of each part: (n_parts, n_figures)."""
-    influences: NDArray[np.float64]
-    """Effect of a unit of each figure in each place: (n_places, n_figures, n_dimensions)."""
 
 
 class Assignment(NamedTuple):
@@ -79,64 +61,29 @@ class MeasuredParts(Record):
     """Orders of what remains."""
 
     @cached_property
-    def start(self) -> NDArray[np.float64]:
-        """Residual of the engine with its own masses, over ω², as real numbers."""
-        balance = over_square(self.engine, self.orders)
-        return self._vector(*(phasors(balance, name) for name in PLANE_VECTORS))
+    def balance(self) -> _core.MeasuredParts:
+        """The parts as they leave a residual of force and moment."""
+        return self._matched_by("balance")
 
     @cached_property
-    def kinds(self) -> tuple[Kind, ...]:
-        """Deviations of the parts from their means, and what a unit of each does."""
-        reciprocating = self._influences(rotating=False)
-        kinds = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
-        if self.rods is not None:
-            both = np.stack([reciprocating, self._influences(rotating=True)], axis=1)
-            kinds.append(Kind(self.rods - self.rods.mean(axis=0), both))
-        return tuple(kinds)
+    def spread(self) -> _core.MeasuredParts:
+        """The parts as they differ in reciprocating mass."""
+        return self._matched_by("spread")
 
-    def _influences(self, *, rotating: bool) -> NDArray[np.float64]:
-        """Return what a kilogram in each cylinder adds: (n_cylinders, n_dimensions)."""
-        mass = float(not rotating)
-        cylinders = [each.replace(reciprocating_mass=mass) for each in self.engine.cylinders]
-        with suppressed():  # of a kilogram
-            laden = self.engine.replace(
-                cylinder=cylinders,
-                rotating_mass=float(rotating),
-                counterweights=(),
-                shafts=(),
-                loads=(),
-            )
-        balance = over_square(laden, self.orders)
-        pairs = zip(*(contributions(balance, name) for name in PLANE_VECTORS), strict=True)
-        return np.stack([self._vector(force.phasors, moment.phasors) for force, moment in pairs])
-
-    def _vector(
-        self, force: NDArray[np.complex128], moment: NDArray[np.complex128]
-    ) -> NDArray[np.float64]:
-        """Return forward and backward parts as real numbers, moments over half the length."""
-        half = 0.5 * (self.engine.z.max() - self.engine.z.min())
-        has_length = half > np.finfo(float).tiny  # by less no complex number can be divided
-        together = np.concatenate([*force, *(moment / half if has_length else ())])
-        return np.concatenate([together.real, together.imag])
+    def _matched_by(self, objective: Objective) -> _core.MeasuredParts:
+        core, ends = engine_core(self.engine), None if self.rods is None else [*self.rods.T]
+        return _core.MeasuredParts(core, objective, self.orders, self.pistons, ends)
 
     def chosen(self, assignment: Assignment) -> tuple[NDArray[np.intp], ...]:
         """Return the places of the parts in the lists of this bin."""
-        lists = [each for each in assignment if each is not None]
-        return tuple(np.array(each, dtype=np.intp) - 1 for each in lists)
+        lists = [numbers for numbers in assignment if numbers is not None]
+        return tuple(np.array(numbers, dtype=np.intp) - 1 for numbers in lists)
 
-    def value(self, objective: str, assignment: Assignment) -> float:
+    def value(self, objective: Objective, assignment: Assignment) -> float:
         """Return the objective of one engine."""
-        chosen = self.chosen(assignment)
-        if objective == "balance":
-            added = [
-                np.einsum("jf,jfd->d", kind.parts[each], kind.influences)
-                for kind, each in zip(self.kinds, chosen, strict=True)
-            ]
-            return float(np.linalg.norm(self.start + sum(added)))
-        sums = self.pistons[chosen[0]]
-        if self.rods is not None:
-            sums = sums + self.rods[chosen[1], 0]
-        return float(np.ptp(sums))
+        chosen = [places.tolist() for places in self.chosen(assignment)]
+        parts = self.balance if objective == "balance" else self.spread
+        return parts.value(chosen)
 
     def engine_of(self, assignment: Assignment, name: str) -> Engine:
         """Return the engine with these parts."""
@@ -262,13 +209,8 @@ def match_parts(
     shown = progress_bar.checked(progress)
     checks.masses(core, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
-    if by == "spread":
-        chosen, exact = _by_spread(measured, wanted, start, shown)
-        # Rods might make up for any difference of pistons.
-        bound = sum(measured.value(by, each) for each in chosen) if exact else 0.0
-    else:
-        chosen, exact, bound = _by_balance(measured, wanted, start, shown)
-    return Match(measured, by, tuple(chosen), bound, exact)
+    chosen, bound, exact = _matched(measured, by, wanted, start, shown)
+    return Match(measured, by, chosen, bound, exact)
 
 
 def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
@@ -287,178 +229,23 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
     return numbers.reshape(-1, columns).copy()
 
 
-# --- the search -----------------------------------------------------------------------------------
-
-
-def _by_spread(
-    parts: MeasuredParts, sets: int, seed: int, progress: Progress
-) -> tuple[list[Assignment], bool]:
-    """Return sets of pistons, and of rods, whose sums are most alike, and whether that is proved.
-
-    Sorted against each other, pistons and rods of one engine have the least largest and the largest
-    least sum: exchanging any two rods of another order makes the larger sum larger or none smaller.
-    """
-    count, masses = len(parts.engine), parts.pistons
-    pistons = windows(masses, count, sets)
-    if parts.rods is None:
-        return [assignment_of(each) for each in pistons], True
-    small = parts.rods[:, 0]
-    rising, falling = np.argsort(masses, kind="stable"), np.argsort(-small, kind="stable")
-    if len(masses) == len(small) == count:
-        return [assignment_of(rising, falling)], True
-    # The lightest pistons with the heaviest rods.
-    rods = [each[::-1] for each in windows(small, count, sets)[::-1]]
-    if count > MOST_EXCHANGED:
-        return [assignment_of(*both) for both in zip(pistons, rods, strict=True)], False
-    starts = [[_sequence(pistons, len(masses)), _sequence(rods, len(small))]]
-    if len(masses) == len(small):
-        # Or pairs of these that are alike.
-        pairs = windows(masses[rising] + small[falling], count, sets)
-        starts.append([_sequence([of[k] for k in pairs], len(of)) for of in (rising, falling)])
-    starts += _random_starts(parts.kinds, seed, max(STARTS, SPREAD_STARTS // len(masses)))
-    places = [np.eye(count).tolist()]
-    listed = [([each.tolist()], places) for each in (masses, small)]
-    matched, _, _ = _matched("spread", [0.0] * count, listed, sets, starts, progress)
-    return matched, False
-
-
-def _by_balance(
-    parts: MeasuredParts, sets: int, seed: int, progress: Progress
-) -> tuple[list[Assignment], bool, float]:
-    """Return assignments that leave little, whether that is proved the least, and a lower bound."""
-    start, kinds = _reduced(parts.start, parts.kinds)
-    # Parts of similar mass in one engine, then any.
-    starts = [[np.argsort(kind.parts.sum(axis=1)).tolist() for kind in kinds]]
-    starts += _random_starts(kinds, seed, STARTS)
-    listed = [
-        (kind.parts.T.tolist(), np.swapaxes(kind.influences, 0, 1).tolist()) for kind in kinds
-    ]
-    assignments, exact, bound = _matched("balance", start.tolist(), listed, sets, starts, progress)
-    value = sum(parts.value("balance", each) for each in assignments)
-    return assignments, exact, value if exact else min(bound, value)
-
-
-def _sequence(sets: Sequence[NDArray[np.intp]], parts: int) -> list[int]:
-    """Return the parts of all sets, then those that are left."""
-    used = np.concatenate(sets)
-    return [*used.tolist(), *np.setdiff1d(np.arange(parts), used).tolist()]
-
-
-def _random_starts(kinds: Sequence[Kind], seed: int, number: int) -> list[list[list[int]]]:
-    random = lazy.imported("numpy.random").default_rng(seed)
-    sizes = [len(kind.parts) for kind in kinds]
-    return [[random.permutation(size).tolist() for size in sizes] for _ in range(number)]
-
-
 def _matched(
-    objective: Objective,
-    start: list[float],
-    listed: list[tuple[list[list[float]], list[list[list[float]]]]],
-    sets: int,
-    starts: list[list[list[int]]],
-    progress: Progress,
-) -> tuple[list[Assignment], bool, float]:
-    """Return the assignments that are found, whether they are proved the best, and a bound."""
-    spread = objective == "spread"
+    measured: MeasuredParts, by: Objective, sets: int, seed: int, progress: Progress
+) -> tuple[tuple[Assignment, ...], float, bool]:
+    """Return the best assignments, a bound of their objective, and whether none is better."""
+    lists = [measured.pistons] if measured.rods is None else [measured.pistons, measured.rods]
+    if by == "balance":
+        parts, count = measured.balance, STARTS
+    else:
+        # Of pistons alone the best are known.
+        parts = measured.spread
+        count = max(STARTS, SPREAD_STARTS // len(lists[0])) if len(lists) > 1 else 0
+    random = lazy.imported("numpy.random").default_rng(seed)
+    starts = [[random.permutation(len(of)).tolist() for of in lists] for _ in range(count)]
     with progress_bar.shown(progress, "assignments") as report:
-        chosen, _, bound, exact = _core.matched(spread, start, listed, sets, starts, report)
-    of_sets = np.array(chosen).reshape(len(listed), sets, -1)
-    return [assignment_of(*of_sets[:, k]) for k in range(sets)], exact, bound
-
-
-def _reduced(
-    start: NDArray[np.float64], kinds: tuple[Kind, ...]
-) -> tuple[NDArray[np.float64], tuple[Kind, ...]]:
-    """Return the same lengths in as few dimensions as the influences span, and one for the rest.
-
-    The first dimension is that of the start where this is longer than what parts add: it sorts the
-    sums best.
-    """
-    stacked = np.concatenate([kind.influences.reshape(-1, len(start)) for kind in kinds])
-    axes = _axes(stacked)
-    along = _along(start[np.newaxis], axes)
-    largest = max(float(np.abs(kind.parts).max()) for kind in kinds)
-    if math.hypot(*along[0]) > largest * math.sqrt(float((stacked * stacked).sum())):
-        axes = _axes(axes, _axes(_combined(along, axes)))
-    axes = _axes(start[np.newaxis], axes)
-    if not len(axes):
-        axes = np.eye(1, len(start))
-    turned = [
-        kind._replace(influences=np.stack([_along(each, axes) for each in kind.influences]))
-        for kind in kinds
-    ]
-    return _along(start[np.newaxis], axes)[0], tuple(turned)
-
-
-# Sums are taken term by term: a library of linear algebra rounds otherwise on another processor,
-# and another of several equally good assignments would come first.
-
-
-def _along(vectors: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return components of row vectors along orthonormal rows: (n_vectors, n_axes)."""
-    products = vectors[:, np.newaxis] * axes
-    return reduce(np.add, products.transpose(2, 0, 1))
-
-
-def _combined(parts: NDArray[np.float64], axes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the row vectors of components: (n_vectors, n_dimensions)."""
-    nothing = np.zeros((len(parts), axes.shape[1]))
-    return reduce(np.add, parts.T[:, :, np.newaxis] * axes[:, np.newaxis], nothing)
-
-
-def _axes(
-    vectors: NDArray[np.float64], before: NDArray[np.float64] | None = None
-) -> NDArray[np.float64]:
-    """Return orthonormal rows, and more until they span some vectors: the longest rest next.
-
-    By Gram and Schmidt; twice, since what rounding leaves of one projection is not orthogonal.
-    """
-    axes = np.empty((0, vectors.shape[1])) if before is None else before
-    longest = 0.0
-    while len(axes) < vectors.shape[1]:
-        rest = vectors
-        for _ in range(2):
-            rest = rest - _combined(_along(rest, axes), axes)
-        squares = reduce(np.add, (rest * rest).T)
-        k = int(squares.argmax())
-        longest = longest or max(math.hypot(*each) for each in vectors)
-        if math.sqrt(squares[k]) <= 1e-13 * longest:
-            break
-        axes = np.vstack([axes, rest[k] / math.sqrt(squares[k])])
-    return axes
-
-
-def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[np.intp]]:
-    """Return sets of equally many parts whose ranges have the least sum; the rest stays unused.
-
-    Exact. Of sorted parts that are all used, a gap between neighbours with m parts below it, m no
-    multiple of ``size``, is straddled by at least one set, because no sets consist of m parts;
-    sorted sets straddle each of these gaps once and no other. The sum of ranges is the sum of the
-    gaps straddled. An unused part within the range of a set may replace one of its ends without
-    widening it. So the sets are windows of neighbours, and dynamic programming finds the best.
-
-    Where all parts are used, sorted sets have the least largest range too: the first
-    (t − 1)·size + 1 parts lie in at least t sets, which reach the (t·size)-th part; so that one of
-    them has at least the range of the t-th sorted set.
-    """
-    order = np.argsort(masses, kind="stable")
-    ranges = masses[order][size - 1 :] - masses[order][: len(masses) - size + 1]
-    # least[t][m]: least sum of t sets of the first m parts.
-    least = np.full((sets + 1, len(masses) + 1), np.inf)
-    least[0] = 0.0
-    taken = np.zeros(least.shape, dtype=bool)
-    for t in range(1, sets + 1):
-        for m in range(t * size, len(masses) + 1):
-            with_last = least[t - 1, m - size] + ranges[m - size]
-            taken[t, m] = with_last < least[t, m - 1]
-            least[t, m] = min(with_last, least[t, m - 1])
-    windows, m = [], len(masses)
-    for t in range(sets, 0, -1):
-        while not taken[t, m]:
-            m -= 1
-        windows.append(order[m - size : m])
-        m -= size
-    return windows[::-1]
+        chosen, bound, exact = parts.matched(sets, starts, report)
+    by_set = np.array(chosen).reshape(len(lists), sets, -1)
+    return tuple(assignment_of(*by_set[:, k]) for k in range(sets)), bound, exact
 
 
 class Match(Tabled):

@@ -283,6 +283,22 @@ pub fn free_motions(powertrain: &Powertrain, frequency: Option<f64>) -> Result<V
     }
 }
 
+/// Frequencies, Hz, and purities, %, of the [`modes`].
+pub(crate) fn frequency_and_purity(
+    powertrain: &Powertrain,
+    frequency: Option<f64>,
+) -> Result<[Vec<f64>; 2]> {
+    fn of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<[Vec<f64>; 2]> {
+        let (_, stiffnesses) = dynamic(bodies.powertrain, frequency)?;
+        let natural = natural(bodies, &real(&stiffnesses));
+        Ok([natural.frequency().to_vec(), purities(bodies, &natural).to_vec()])
+    }
+    match powertrain.subframe()? {
+        None => of(&powertrain.alone()?, frequency),
+        Some(_) => of(&powertrain.with_subframe()?, frequency),
+    }
+}
+
 fn modes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result<Modes> {
     let (omega, stiffnesses) = dynamic(bodies.powertrain, frequency)?;
     let along = real(&stiffnesses);

@@ -144,10 +144,16 @@ impl MountFigures {
         orthonormal(rows)
     }
 
+    /// Dynamic stiffness along its axes without loss, of a table the static one.
+    #[must_use]
+    pub fn in_motion(&self) -> [f64; 3] {
+        self.dynamic_stiffness.unwrap_or(self.stiffness)
+    }
+
     fn dynamic(&self) -> Result<Dynamic> {
         let Some(table) = &self.table else {
             return Ok(Dynamic::Constant {
-                stiffness: self.dynamic_stiffness.unwrap_or(self.stiffness),
+                stiffness: self.in_motion(),
                 loss_factor: self.loss_factor,
                 damping: self.damping,
                 track: self.track,
