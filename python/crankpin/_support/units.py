@@ -212,7 +212,7 @@ class Figure(NamedTuple):
     unit: str
     """Their unit."""
     spec: str = ".5g"
-    """Format of each, as of ``format``."""
+    """Format of each, as of ``format``; empty for all digits."""
     form: str = "{}"
     """Text of the numbers: ``"{} to {}"``, ``"({}, {}, {})"``."""
 
@@ -222,7 +222,7 @@ class Figure(NamedTuple):
         numbers = [format(value, spec) for value in self.values]
         if shown.factor != 1.0:
             before, _, digits = spec.partition(".")
-            most = int(digits[:-1])
+            most = int(digits[:-1] or 5)
             if digits.endswith("f"):
                 spec = f"{before}.{max(0, most - round(math.log10(shown.factor)))}f"
                 numbers = [format(value * shown.factor, spec) for value in self.values]

@@ -849,7 +849,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
                     continue
                 listed = (None if np.isnan(each) else each for each in values.tolist())
                 columns.append(Column(f"T {name}", tuple(listed), in_unit))
-        point = self._point and units.Figure(self._point, "m", ".10g", "({}, {}, {})")
+        point = self._point and units.Figure(self._point, "m", "", "({}, {}, {})")
         at = units.Text(point or "the CG")
         title = self._title(units.Text("loads about ", at))
         return Table(title, tuple(columns), note, loads=self.loads_counted)
