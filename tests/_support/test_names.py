@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import ast
 import csv
+import html
+import inspect
 import io
+import re
 import unicodedata
+from functools import reduce
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
 import crankpin as cp
 import pytest
+import support.objects
 from crankpin._support import labels
+from crankpin._support.frames import Framed
 from crankpin._support.tables import Column, Table
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -18,8 +26,7 @@ from support import in_turn
 from support.engines import I4, V6
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
+    from collections.abc import Callable, Mapping
 
 ENDS = "a\u0085b\u2028c\u2029d\x0be\x0cf\x1cg\rh\ni\r\nj"
 """Everything that ends a line somewhere."""
@@ -109,7 +116,7 @@ def test_pictures_of_any_name_are_xml(what: str) -> None:
 def test_a_table_shows_no_control_characters(name: str) -> None:
     column = Column(name, (name, "b"), name)
     table = Table(name, (column,), note=name)
-    for text in (table.text(), table.html(), labels.printable(name)):
+    for text in (table.text(), table.html(), labels.one_line(name)):
         assert harmless(text)
 
 
@@ -154,3 +161,86 @@ def test_spreadsheets_run_no_name_of_an_engine() -> None:
     name = '=HYPERLINK("https://a.example")'
     found = cp.rank({name: I4, "b": I4}, rpm=3000, by="total.force.peak").table.to_csv()
     assert f"'{name}" in {cell for row in csv.reader(io.StringIO(found)) for cell in row}
+
+
+# --- names that look like figures, formulas and markup --------------------------------------------
+
+
+class Renamed(ast.NodeTransformer):
+    """The objects of the tests, each engine, cycle, mount and so on with a longer name."""
+
+    def __init__(self, objects: ast.Module, addition: str) -> None:
+        self.addition = addition
+        self.names: set[object] = set()
+        for call in ast.walk(objects):
+            if isinstance(call, ast.Call) and (path := self.path(call)):
+                first = call.args[:1]
+                if first and isinstance(first[0], ast.Dict):  # engines by name
+                    first = [key for key in first[0].keys if key is not None]
+                elif path.count(".") > 1 or self.place_of_name(path) != 0:
+                    first = []
+                first += [option.value for option in call.keywords if option.arg == "name"]
+                self.names |= {text.value for text in first if isinstance(text, ast.Constant)}
+
+    @staticmethod
+    def path(call: ast.Call) -> str:
+        """Return the name of a function of crankpin; empty for others."""
+        path = ast.unparse(call.func)
+        return path if re.fullmatch(r"cp(\.\w+)+", path) else ""
+
+    @staticmethod
+    def place_of_name(path: str) -> int | None:
+        """Return the place of the name among the parameters of a function."""
+        function: Any = reduce(getattr, path.split(".")[1:], cp)
+        parameters = inspect.signature(function).parameters
+        return [*parameters].index("name") if "name" in parameters else None
+
+    def visit_Constant(self, node: ast.Constant) -> ast.Constant:
+        renamed = isinstance(node.value, str) and node.value in self.names
+        return ast.Constant(f"{node.value!s} {self.addition}") if renamed else node
+
+    def visit_Call(self, node: ast.Call) -> ast.Call:
+        self.generic_visit(node)
+        name, path = ast.keyword("name", ast.Constant(self.addition)), self.path(node)
+        if path in ("cp.Engine.preset", "cp.Cycle.example"):
+            return ast.Call(ast.Attribute(node, "replace", ast.Load()), [], [name])
+        place = self.place_of_name(path) if path else None
+        if place is not None and place >= len(node.args):
+            node.keywords += [name] * all(option.arg != "name" for option in node.keywords)
+        return node
+
+
+def objects_named(addition: str) -> Mapping[str, Any]:
+    """Return the objects of the tests, with names that end so."""
+    objects = ast.parse(Path(support.objects.__file__).read_text(encoding="utf8"))
+    renamed = ast.fix_missing_locations(Renamed(objects, addition).visit(objects))
+    namespace: dict[str, Any] = {"__name__": "support.objects_renamed"}
+    exec(compile(renamed, "objects", "exec"), namespace)  # noqa: S102 - ours
+    found: Mapping[str, Any] = namespace["OBJECTS"]
+    return found
+
+
+def texts(value: object) -> list[str]:
+    """Return all that is shown of an object as text."""
+    written = [repr(value), str(value)]
+    if isinstance(value, Framed):
+        for frame in value.frames.values():
+            written += [frame.text(), html.unescape(frame.html())]
+    return written
+
+
+LIKE_FIGURES = ("Run 7: rod 0.145 m", "5 N·m, (1, 2) kg", "<b>%s {x} 1 to 2 bar, N")
+
+
+@pytest.mark.parametrize("name", LIKE_FIGURES)
+def test_units_change_no_name(name: str) -> None:
+    """A name stands in every text as often, letter by letter, whatever units are set."""
+    seen = set()
+    for what, value in objects_named(name).items():
+        plain = [text.count(name) for text in texts(value)]
+        if any(plain):
+            seen.add(what)
+        for setting in ("lb, in, lbf, psi", "g, mm, kN, bar", "oz·in"):
+            with cp.units(setting):
+                assert [text.count(name) for text in texts(value)] == plain, (what, setting)
+    assert len(seen) > 60, sorted(seen)

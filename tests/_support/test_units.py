@@ -121,10 +121,11 @@ def test_a_kind_that_is_not_named_stays() -> None:
 
 
 def test_ranges_and_echoes_are_in_the_units_set() -> None:
-    assert units.in_text("strokes 0.0508 to 0.0762 m", units.read("in")) == "strokes 2 to 3 in"
-    assert units.in_text("1 to 2 kg·m² at 3 to 4 °", units.read("g, mm")) == (
-        "1000000000 to 2000000000 g·mm² at 3 to 4 °"
-    )
+    strokes = units.Text("strokes ", units.figure(0.0508, "m", 4, 0.0762))
+    assert strokes == "strokes 0.0508 to 0.0762 m"
+    assert units.shown(strokes, units.read("in")) == "strokes 2 to 3 in"
+    inertia = units.Text(units.figure(1.0, "kg·m²", 4, 2.0), " at 3 to 4 °")
+    assert units.shown(inertia, units.read("g, mm")) == "1000000000 to 2000000000 g·mm² at 3 to 4 °"
     cylinder = cp.Cylinder(0.0254 * 1.9375, 0.0254 * 7.4375, 0.5)
     longer = cylinder.replace(crank_radius=0.0508)
     engine = cp.Engine.inline([cylinder, longer], throws_deg=[0, 180], spacing=0.1)
@@ -153,7 +154,8 @@ def test_energy_goes_with_torque(setting: str, unit: str, joules: float) -> None
     with cp.units(setting):
         (line,) = (each for each in flywheel.table.text().splitlines() if "energy" in each)
     assert re.search(rf"\b{unit}\b", line), line
-    assert units.in_text("it swings by 120 J", units.read("lbf")) == "it swings by 88.5 ft·lbf"
+    swing = units.Text("it swings by ", units.figure(120.0, "J", 2))
+    assert units.shown(swing, units.read("lbf")) == "it swings by 88.5 ft·lbf"
 
 
 def test_the_setting_ends_with_its_block_and_changes_no_result() -> None:
@@ -203,10 +205,18 @@ def test_numbers_along_axes_are_those_of_the_unit() -> None:
 
 def test_texts_are_converted_with_their_digits() -> None:
     setting = units.read("oz, in, lbf")
-    text = "Sag (1.27, -2.54, 0.5) mm under 1.3558179 N·m; 8.90 kN along 45°, 3 in pitch at 2 rpm"
-    assert units.in_text(text, setting) == (
-        "Sag (0.05, -0.1, 0.0197) in under 0.99999996 lbf·ft; 2000 lbf along 45°, "
-        "3 in pitch at 2 rpm"
+    text = units.Text(
+        "Sag ", units.Figure((1.27, -2.54, 0.5), "mm", ".4g", "({}, {}, {})"), " under ",
+        units.figure(1.3558179, "N·m", 8), "; ", units.figure(8896.0, "N", 3), " along 45°, ",
+        "3 m pitch, ", units.Figure((0.047, 0.015), "m", "+.3f", "{} ± {}"),
+    )  # fmt: skip
+    assert text == (
+        "Sag (1.27, -2.54, 0.5) mm under 1.3558179 N·m; 8.9e+03 N along 45°, 3 m pitch, "
+        "+0.047 ± +0.015 m"
+    )
+    assert units.shown(text, setting) == (
+        "Sag (0.05, -0.1, 0.01969) in under 0.99999996 lbf·ft; 2000 lbf along 45°, 3 m pitch, "
+        "+1.9 ± +0.6 in"
     )
 
 

@@ -104,18 +104,13 @@ class Titled(Protocol):
 
 def name_of(engine: Titled) -> str:
     """Return the title of an engine in one line, without control characters."""
-    return printable(engine.title)
+    return one_line(engine.title)
 
 
 def about_axis(cranks: Sequence[tuple[float, float, float]]) -> str:
     """Return about which axis a roll torque is, of cranks as x, y and ratio; none of one axis."""
     apart = any((x, y) != (0.0, 0.0) for x, y, _ in cranks)
     return " about the axis of the main crank" if apart else ""
-
-
-def printable(text: str) -> str:
-    """Return a name in one line, control characters as spaces, its figures in no other unit."""
-    return units.verbatim(one_line(text))
 
 
 def one_line(text: str) -> str:
@@ -177,7 +172,7 @@ def gas_text(names: Sequence[str | None], count: int = 1) -> str:
     count
         Number of different cycles.
     """
-    named = [None if name is None else printable(name) for name in names]
+    named = [None if name is None else one_line(name) for name in names]
     return _core.gas_text(named, count)
 
 
@@ -200,7 +195,7 @@ def _once(texts: Sequence[str], titles: Sequence[str]) -> str:
     names: dict[str, list[str]] = {}
     for title, text in zip(titles, texts, strict=True):
         if text:
-            names.setdefault(text, []).append(printable(title))
+            names.setdefault(text, []).append(one_line(title))
     return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
 
 
@@ -215,5 +210,16 @@ def attributes(loads: str) -> dict[str, str]:
 
 
 def cut(text: str, longest: int = 60) -> str:
-    """Return a text that fits a title."""
-    return text if len(text) <= longest else f"{text[: longest - 1]}…"
+    """Return a text that fits a title; one with figures ends before the first that does not."""
+    if len(text) <= longest:
+        return text
+    if not isinstance(text, units.Text):
+        return f"{text[: longest - 1]}…"
+    rest, parts = longest - 1, list[str | units.Figure]()
+    for part in text.parts:
+        length = len(units.Text(part))
+        if length > rest and not isinstance(part, str):
+            break
+        parts.append(part[:rest] if isinstance(part, str) else part)
+        rest = max(0, rest - length)
+    return units.Text(*parts, "…")

@@ -97,6 +97,10 @@ class Column(Record):
     def _in(self, setting: units.Setting) -> Column:
         """Return the column in the units of a setting."""
         shown = units.convert(self.unit, setting)
+        if not isinstance(self.data, np.ndarray) and units.Text in {*map(type, self.data)}:
+            texts = ((isinstance(cell, str), cell) for cell in self.data)
+            cells = (units.shown(cell, setting) if is_text else cell for is_text, cell in texts)
+            return changed(self, data=tuple(cells))
         if shown.unit == self.unit:
             return self
         values = _times(self.data, shown.factor)
@@ -226,13 +230,9 @@ class Table(Tabled):
         shown = [distinct[unit] for unit in self.row_units]
         if shown:
             columns = tuple(self._by_row(each, shown) for each in columns)
-        first, *others = self.title.split("\n")
-        if {*distinct} == {first.rpartition(", ")[2]}:
-            first, _ = units.after_comma(first, setting)
-        title = "\n".join(units.in_text(each, setting) for each in (first, *others))
         return changed(
-            self, title=title, columns=columns, note=units.in_text(self.note, setting),
-            row_units=tuple(each.unit for each in shown),
+            self, title=units.shown(self.title, setting), columns=columns,
+            note=units.shown(self.note, setting), row_units=tuple(each.unit for each in shown),
         )  # fmt: skip
 
     def _by_row(self, column: Column, shown: Sequence[units.Converted]) -> Column:
@@ -247,8 +247,8 @@ class Table(Tabled):
             each = value
             if not isinstance(value, str):
                 each = _times(value, new.factor)
-            elif value == unit or (unit and value.endswith(f" {unit}")):
-                each = value.removesuffix(unit) + new.unit
+            elif column.name == "unit" and value == unit:
+                each = new.unit
             values.append(each)
         return changed(column, data=tuple(values))
 

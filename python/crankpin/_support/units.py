@@ -7,17 +7,16 @@ them, and changes no number of a result.
 from __future__ import annotations
 
 import math
-import re
 from contextvars import ContextVar
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from crankpin import _core
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
     from types import TracebackType
 
 ENERGIES = {
@@ -42,14 +41,6 @@ ALIASES = dict(_aliases)
 HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
 LEAST_DIGITS = 3
 """Significant digits of a converted number in a text, at least."""
-
-_SI = "|".join(sorted(
-    ("kg", "g", "mg", "m", "cm", "mm", "µm", "N", "kN", "MN", *PRESSURES), key=len, reverse=True
-))  # fmt: skip
-_UNIT = rf"(?:J|{_SI}|s|rad)[²³]?(?:[·/](?:{_SI}|s|rad)[²³]?)*(?![\w·/²³])"
-_NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-_FIGURE = re.compile(rf"(?<![\w.])(?:({_NUMBER}) to )?({_NUMBER}) ({_UNIT})", re.ASCII)
-_VECTOR = re.compile(rf"\(((?:{_NUMBER}(?:, )?)+)\) ({_UNIT})", re.ASCII)
 
 Dimension = tuple[int, ...]
 
@@ -186,8 +177,8 @@ def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Conver
     if not chosen or not unit:
         return same
     if unit == "J":
-        shown = convert("N·m", chosen)
-        return Converted(ENERGIES.get(shown.unit, shown.unit), shown.factor)
+        torque = convert("N·m", chosen)
+        return Converted(ENERGIES.get(torque.unit, torque.unit), torque.factor)
     try:
         terms = _terms(unit)
         dimension = _dimension(terms)
@@ -210,56 +201,95 @@ def convert(unit: str, setting: Mapping[Dimension, str] | None = None) -> Conver
     return Converted(_text(target), float(factor))
 
 
-def figure(value: float, unit: str, digits: int, most: float | None = None) -> str:
-    """Return a number of significant digits, or a range, with its unit, as the setting shows it."""
-    shown = convert(unit)
-    ends = [value] if most in (None, value) else [value, most]
-    numbers = " to ".join(f"{end * shown.factor:.{digits}g}" for end in ends if end is not None)
-    return f"{numbers} {shown.unit}"
+# --- figures in texts ----------------------------------------------------------------------------
 
 
-def in_text(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
-    """Return a text of the library with its numbers and their SI units as a setting shows them."""
-    chosen = current() if setting is None else setting
-    if not chosen:
+class Figure(NamedTuple):
+    """Numbers and their unit, as a part of a :class:`Text`."""
+
+    values: tuple[float, ...]
+    """The numbers; none where the unit stands alone."""
+    unit: str
+    """Their unit."""
+    spec: str = ".5g"
+    """Format of each, as of ``format``; empty for all digits."""
+    form: str = "{}"
+    """Text of the numbers: ``"{} to {}"``, ``"({}, {}, {})"``."""
+
+    def text(self, setting: Mapping[Dimension, str]) -> str:
+        """Return the numbers and the unit that a setting shows."""
+        shown, spec = convert(self.unit, setting), self.spec
+        numbers = [format(value, spec) for value in self.values]
+        if shown.factor != 1.0:
+            before, _, digits = spec.partition(".")
+            most = int(digits[:-1] or 5)
+            if digits.endswith("f"):
+                spec = f"{before}.{max(0, most - round(math.log10(shown.factor)))}f"
+                numbers = [format(value * shown.factor, spec) for value in self.values]
+            else:
+                most = max(most, LEAST_DIGITS)
+                rounded = (float(f"{value * shown.factor:.{most}g}") for value in self.values)
+                numbers = [f"{value:{before}.10g}" for value in rounded]
+        return f"{self.form.format(*numbers) if numbers else ''} {shown.unit}".strip()
+
+
+class Text(str):
+    """Text of which figures are shown in the units that are set; of itself it is in SI units.
+
+    Words, among them names that users gave, stay as they are whatever they look like.
+    """
+
+    __slots__ = ("parts",)
+    parts: tuple[str | Figure, ...]
+    """Words and figures."""
+
+    def __new__(cls, *parts: str | Figure) -> Self:
+        """Return the text of words, other texts and figures."""
+        flat = [
+            each for part in parts for each in (part.parts if isinstance(part, Text) else (part,))
+        ]
+        text = super().__new__(cls, "".join(_part(each, {}) for each in flat))
+        text.parts = tuple(flat)
         return text
 
-    def written(number: str, factor: float) -> str:
-        mantissa = re.sub(r"e.*|\D", "", number).lstrip("0")
-        digits = max(len(mantissa), LEAST_DIGITS)
-        value = float(number.replace("−", "-")) * factor
-        return f"{float(f'{value:.{digits}g}'):.10g}"
-
-    def one(match: re.Match[str]) -> str:
-        least, number, unit = match.groups()
-        shown = convert(unit, chosen)
-        if shown.unit == unit:
-            return match[0]
-        begin = f"{written(least, shown.factor)} to " if least else ""
-        return f"{begin}{written(number, shown.factor)} {shown.unit}"
-
-    def several(match: re.Match[str]) -> str:
-        shown = convert(match[2], chosen)
-        if shown.unit == match[2]:
-            return match[0]
-        numbers = (written(each, shown.factor) for each in match[1].split(", "))
-        return f"({', '.join(numbers)}) {shown.unit}"
-
-    return _VECTOR.sub(several, _FIGURE.sub(one, text))
+    def __reduce__(self) -> tuple[type[Text], tuple[str | Figure, ...]]:
+        """Return what copies and pickles are made of."""
+        return type(self), self.parts
 
 
-def verbatim(name: str) -> str:
-    """Return a name whose figures are not those of the library: their spaces do not break."""
-    for figures in (_FIGURE, _VECTOR):
-        name = figures.sub(lambda found: found[0].replace(" ", "\N{NO-BREAK SPACE}"), name)
-    return name
+def _part(part: str | Figure, setting: Mapping[Dimension, str]) -> str:
+    return part.text(setting) if isinstance(part, Figure) else part
 
 
-def after_comma(text: str, setting: Mapping[Dimension, str] | None = None) -> tuple[str, float]:
-    """Return ``force, N`` with the unit that a setting shows, and the factor of its numbers."""
-    match = re.fullmatch(r"(.*, )([^ ,]+)( \(.*\))?", text)
-    shown = convert(match[2] if match else "", setting)
-    return f"{match[1]}{shown.unit}{match[3] or ''}" if match else text, shown.factor
+def shown(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
+    """Return a text with its figures as a setting shows them."""
+    chosen = current() if setting is None else setting
+    parts = text.parts if isinstance(text, Text) else (text,)
+    return "".join(_part(each, chosen) for each in parts)
+
+
+def joined(separator: str, texts: Iterable[str]) -> Text:
+    """Return the texts that are not empty, with their figures and a separator between them."""
+    parts = [part for text in texts if text for part in (separator, text)]
+    return Text(*parts[1:])
+
+
+def headed(words: str, unit: str) -> Text:
+    """Return ``force, N``, of which the unit is shown as it is set."""
+    return joined(", ", [words, Text(Figure((), unit))])
+
+
+def figure(value: float, unit: str, digits: int, most: float | None = None) -> Text:
+    """Return a number of significant digits, or a range, with its unit."""
+    ends = (value,) if most is None or most == value else (value, most)
+    return Text(Figure(ends, unit, f".{digits}g", " to ".join("{}" for _ in ends)))
+
+
+def factor_of(text: str, setting: Mapping[Dimension, str] | None = None) -> float:
+    """Return the factor of numbers under a head, ``force, N``, in the unit that is shown."""
+    parts = text.parts if isinstance(text, Text) else ()
+    alone = [each.unit for each in parts if isinstance(each, Figure) and not each.values]
+    return convert(alone[-1], setting).factor if alone else 1.0
 
 
 # --- products and quotients of units --------------------------------------------------------------

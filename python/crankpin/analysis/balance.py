@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -254,13 +254,14 @@ class Balance(ByOrder[float]):
         notes = [labels.not_shown(left_out)]
         if "torque" in names:
             notes.append(self._roll_axis())
-        note = " ".join(filter(None, notes))
+        note = units.joined(" ", notes)
         return Table(title, tuple(columns), note, loads=self.loads_counted)
 
     def _roll_axis(self) -> str:
         """Return about which axis the roll torque is, where there are several to choose from."""
         x, y = self._request.aside
         if x or y:
-            return f"|M_z| is about the axis at x = {x:g} m, y = {y:g} m."
+            place = units.figure(x, "m", 6), ", y = ", units.figure(y, "m", 6)
+            return units.Text("|M_z| is about the axis at x = ", *place, ".")
         about = labels.about_axis(engine_core(self.engine).cranks[0])
         return f"|M_z| is{about}." if about else ""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import AbsentError, changed
@@ -237,7 +237,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
             shown, left_out = self._shown_orders(quantity.name)
             keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
         unit, words = quantity.unit, quantity.words
-        title = f"{words}, {unit}"
+        title: str = units.headed(words, unit)
         coords = {name: each for name, each in quantity.coords.items() if name in self.dims}
         if coords:
             columns = export.points(coords, len(keys))

@@ -389,12 +389,12 @@ class ClosedForm(Tabled):
         if factor != abs(factor):
             text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
-            text += f", a = {units.figure(1e3 * self.spacing, 'mm', 6)}"
+            text += f", a = {units.shown(units.figure(1e3 * self.spacing, 'mm', 6))}"
         for k, load in enumerate(self.loads, 1):
-            text += f", P{k} of the load {labels.printable(load.name)}"
+            text += f", P{k} of the load {labels.one_line(load.name)}"
             if self.quantity == "moment":
                 place = 1e3 * (load.z - self.reference_z)
-                text += f", b{k} = {units.figure(place, 'mm', 6)}"
+                text += f", b{k} = {units.shown(units.figure(place, 'mm', 6))}"
         return text
 
     @property

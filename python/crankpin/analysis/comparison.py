@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES
@@ -209,7 +209,7 @@ class Comparison(Tabled):
     def table(self) -> Table:
         """Table that is shown: the peak of each quantity and order before and after, and of all."""
         texts: list[tuple[str, Order | str]] = []
-        rows = []
+        rows, row_units = [], list[str]()
         for name in self.before._request.quantities:
             if name == "crank_torque":
                 continue
@@ -217,11 +217,13 @@ class Comparison(Tabled):
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
             shown = self._shown_orders(name)
-            texts += [(f"{kind.words}, {kind.unit}", self.orders[k]) for k in shown]
+            head = units.headed(kind.words, kind.unit)
+            texts += [(head, self.orders[k]) for k in shown]
             rows += [(before[k], after[k], change[k]) for k in shown]
+            row_units += [kind.unit] * (len(shown) + (len(shown) > 1))
             if len(shown) > 1:
                 total = [getattr(each.total, name).peak for each in (self.before, self.after)]
-                texts.append((f"{kind.words}, {kind.unit}", ALL))
+                texts.append((head, ALL))
                 rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
@@ -233,7 +235,7 @@ class Comparison(Tabled):
             texts,
             listed,
             loads=self.loads_counted,
-            row_units=[text.rpartition(", ")[2] for text, _ in texts],
+            row_units=row_units,
         )
 
     @property

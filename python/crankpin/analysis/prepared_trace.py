@@ -178,15 +178,17 @@ def prepare_trace(
             window = _window(stages[-1], INTAKE if window_deg is None else window_deg, 1)
             reference = _reference(intake_pressure, stages[-1].theta_deg[window] + tdc)
             offsets = reference - clean.pressure[:, window].mean(axis=1)
-            said = f"intake at {reference / 1e5:.4g} bar"
+            said = units.Text("intake at ", units.figure(reference / 1e5, "bar", 4))
         elif exponent is not None:
             window = _window(stages[-1], COMPRESSION if window_deg is None else window_deg, 3)
             volume = _volumes(stages[-1], cylinder, compression_ratio, window)
             offsets, said = _polytropic(clean.pressure[:, window], volume, exponent)
         if intake_pressure is not None or exponent is not None:
             stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
-            spread = f" ± {offsets.std(ddof=1) / 1e5:.3f}" if len(offsets) > 1 else ""
-            names.append(f"{said}: {offsets.mean() / 1e5:+.3f}{spread} bar")
+            spread = [float(offsets.std(ddof=1))] if len(offsets) > 1 else []
+            sizes = tuple(size / 1e5 for size in (float(offsets.mean()), *spread))
+            change = units.Figure(sizes, "bar", ".3f", " ± ".join(["{}"] * len(sizes)))
+            names.append(units.Text(said, ": ", "+" if sizes[0] >= 0.0 else "", change))
     if len(stages) > 1:
         # Of spikes traces have been warned of; a peak far from the dead centre is the cause of
         # whatever else is wrong, and has been warned of where it is theirs.
@@ -315,7 +317,7 @@ class PreparedTrace(Tabled):
             of_imep = [100.0 * (imep[k] / imep[j] - 1.0) for k, j in enumerate(before)]
             moved = 100.0 * np.abs(phasors - phasors[before]) / np.abs(phasors[before])
         columns = [
-            Column("step", self._shown_names()),
+            Column("step", self.names),
             Column("imep", tuple(each / 1e5 for each in imep), "bar"),
             Column("changes", tuple(of_imep), "%", digits=3),
             *(
@@ -331,10 +333,6 @@ class PreparedTrace(Tabled):
         """``table``; ``orders``: peaks, noise and amplitudes by step; ``spread``: over cycles."""
         return self._frames(orders=self._orders, spread=lambda: self.traces.spread(self.cylinder))
 
-    def _shown_names(self) -> tuple[str, ...]:
-        """Return the names of the steps in the units of the setting."""
-        return tuple(units.in_text(name) for name in self.names)
-
     def _orders(self) -> Table:
         rows = [
             (
@@ -344,9 +342,7 @@ class PreparedTrace(Tabled):
                 100.0 * each.cov(self.cylinder),
                 *np.abs(phasors).tolist(),
             )
-            for name, each, phasors in zip(
-                self._shown_names(), self.stages, self._phasors, strict=True
-            )
+            for name, each, phasors in zip(self.names, self.stages, self._phasors, strict=True)
         ]
         heads: list[str | tuple[str, str]] = [
             "step", ("peak", "bar"), ("noise", "bar"), ("COV of imep", "%"),
@@ -357,7 +353,7 @@ class PreparedTrace(Tabled):
     @property
     def title(self) -> str:
         """Title of table and picture."""
-        name = labels.printable(self.traces.name) or "Traces"
+        name = labels.one_line(self.traces.name) or "Traces"
         return f"{labels.cut(name)}, {len(self.traces)} cycles"
 
 

@@ -665,12 +665,12 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         dims = self._dims_of(VALUES if self.order is None else "peak")
         if self.order is None and dims[:1] == ("order",):
             return ""
-        text = f"<Quantity {labels.printable(self.words)}{self._which}"
+        text = f"<Quantity {labels.one_line(self.words)}{self._which}"
         loads = f", {self.loads_counted}" if self.loads_counted else ""
         if not dims:
             peak = "peak " if "peak" in self.result._readings(self.name) else ""
             highest: Any = self.peak if peak else np.asarray(self)[()]
-            return f"{text}: {peak}{units.figure(highest, self.unit, 5)}{loads}>"
+            return f"{text}: {peak}{units.shown(units.figure(highest, self.unit, 5))}{loads}>"
         known = self.result._coordinates(self.name)
         over = ", ".join(f"{d}: {len(known[d])}" for d in dims)
         return f"{text}, {self.unit}, over ({over}){loads}>"

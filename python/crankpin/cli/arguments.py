@@ -80,7 +80,7 @@ class Given:
         self._typed = vars(arguments)
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
-                raise rejected(name, labels.printable(text), "has a NUL byte")
+                raise rejected(name, labels.one_line(text), "has a NUL byte")
         self.said = list[str]()
         """Notices of values that were read differently from their spelling."""
         self._setting = units.read(self._typed.get("units") or "", "--units")

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
@@ -96,10 +96,15 @@ def _torque(given: Given) -> Shown:
     balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
     table = getattr(balance, quantity).table
-    title = f"{labels.name_of(engine)} at {rpm:g} rpm: {table.title}"
+    title = units.Text(f"{labels.name_of(engine)} at {rpm:g} rpm: ", table.title)
     table = table if given.text("--csv") else in_short(table, balance, quantity)
-    note += left_out(balance) if chosen["orders"] == "auto" else ""
-    return Shown(only(changed(table, title=title)), drawn, {"quantity": quantity}, note=note)
+    rest = left_out(balance) if chosen["orders"] == "auto" else ""
+    return Shown(
+        only(changed(table, title=title)),
+        drawn,
+        {"quantity": quantity},
+        note=units.joined("", [note, rest]),
+    )
 
 
 @command(
@@ -253,7 +258,7 @@ class OfCylinders(NamedTuple):
     def frames(self) -> Frames:
         """The frames of all cylinders, a row of each below those of the one before."""
         first = self.prepared[0].traces.name.partition(",")[0]
-        name = f"{labels.printable(first)}, {len(self.prepared)} cylinders"
+        name = f"{labels.one_line(first)}, {len(self.prepared)} cylinders"
         titles = {
             "table": f"Prepared traces of {name}: change by step",
             "orders": "Peak, noise, spread and amplitudes of torque",

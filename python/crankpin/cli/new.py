@@ -245,7 +245,7 @@ def _new(given: Given) -> str:
     (powertrain or engine).save(file)
     # An echo: in the units of --units, or else as typed.
     with units.Shown(given.written | units.current()):
-        said = units.in_text("".join(f"{note}\n" for note in notes))
+        said = "".join(f"{units.shown(note)}\n" for note in notes)
         made = repr(engine)
     command = "balance" if powertrain is None else "mounts"
     return f"{made}\n{said}Written to {file}: try {PROG} {command} {shlex.quote(str(file))}\n"
@@ -318,7 +318,13 @@ def _engine(
         with suppressed():  # Warned of above.
             wider = base.build(cylinder or base.cylinder, 2.0 * spacing, **changes)
         if (wider.z != engine.z).any():
-            notes.append(f"Spacing {spacing * 1e3:g} mm, in proportion to the bore (--spacing).")
+            notes.append(
+                units.Text(
+                    "Spacing ",
+                    units.figure(spacing * 1e3, "mm", 6),
+                    ", in proportion to the bore (--spacing).",
+                )
+            )
     if dummies:
         engine = _with_dummies(given, engine, dummies, named)
     _check_count(given, kind, base, engine)

@@ -13,6 +13,7 @@ import numpy as np
 
 from crankpin._support import files, labels, units
 from crankpin._support.frames import FIRST, SHOWN, Frames
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import changed
 from crankpin._support.warnings import without_controls
 
@@ -65,7 +66,7 @@ def _printed(given: Given, found: Shown) -> tuple[str, str]:
         table = found.frames[name or FIRST]._in(units.current())
         return table.to_csv(), table.loads
     shown = found.frames if name is None else found.frames[name]
-    return f"{shown.text()}\n{units.in_text(found.note)}", ""
+    return f"{shown.text()}\n{units.shown(found.note)}", ""
 
 
 def only(table: Table) -> Frames:
@@ -78,11 +79,14 @@ def left_out(result: Balance | Sweep) -> str:
     bound = result.error_bound
     listed = labels.orders_text(result.omitted, labels.MOST_LISTED).partition(" ")[2]
     seen = f"; omitted: {listed}" if result.omitted else ""
-    roll = f" and {bound['torque']:.2g} N·m to the roll torque" if "torque" in bound else ""
-    return (
-        f"Omitted orders add at most {bound['force']:.2g} N to the force, "
-        f"{bound['moment']:.2g} N·m to the rocking moment{roll}{seen}.\n"
-    )
+    words = {"force": "the force", "moment": "the rocking moment", "torque": "the roll torque"}
+    parts = [
+        units.Text(units.figure(bound[name], QUANTITIES[name].unit, 2), f" to {text}")
+        for name, text in words.items()
+        if name in bound
+    ]
+    listing = units.joined(" and ", [units.joined(", ", parts[:2]), *parts[2:]])
+    return units.Text("Omitted orders add at most ", listing, f"{seen}.\n")
 
 
 def in_short(table: Table, balance: Balance, *names: str) -> Table:
@@ -113,7 +117,7 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
     )
     columns = (changed(each, data=tuple(each.values[k] for k in kept)) for each in table.columns)
     row_units = tuple(table.row_units[k] for k in kept if table.row_units)
-    notes = "\n".join(filter(None, [table.note, note])) if len(kept) < len(heads) else table.note
+    notes = units.joined("\n", [table.note, note]) if len(kept) < len(heads) else table.note
     return changed(table, columns=tuple(columns), note=notes, row_units=row_units)
 
 

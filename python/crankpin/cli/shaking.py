@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels, tables
+from crankpin._support import inputs, labels, tables, units
 from crankpin._support.frames import FIRST, Frames
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import changed
@@ -56,7 +56,7 @@ def _balance(given: Given) -> Shown:
         note = HALF_ORDERS
     table = balance.table
     if given.text("--phases"):
-        table, note = _with_phases(balance), PHASES + note
+        table, note = _with_phases(balance), units.joined("", [PHASES, note])
     if not given.text("--csv"):
         table = in_short(
             table, balance, *(n for n in balance._request.quantities if n != "crank_torque")
@@ -140,7 +140,7 @@ def _sweep(given: Given) -> Shown:
         **chosen,
     )
     frames, note = _frames_of(result, given)
-    note = note + left_out(result) if chosen["orders"] == "auto" else ""
+    note = units.joined("", [note, left_out(result)]) if chosen["orders"] == "auto" else ""
     drawn = {"quantity": given.quantity(result.engines)}
     return Shown(frames, result, drawn, note=note)
 

@@ -440,13 +440,13 @@ class Cycle(Tabled, Input, ComputedCycles):
         peak = int(self.pressure.argmax())
         at = float(checks.about_tdc(self.theta_deg[peak : peak + 1], self.period_deg)[0])
         facts = (
-            labels.printable(self.name) or "Cycle",
+            labels.one_line(self.name) or "Cycle",
             f"{'four' if self.strokes == 4 else 'two'}-stroke",
             f"{len(self.theta_deg)} points ({self.grid})",
-            f"{units.figure(self.pressure[peak] / 1e5, 'bar', 4)} at {at:.4g}°",
+            units.Text(units.figure(self.pressure[peak] / 1e5, "bar", 4), f" at {at:.4g}°"),
         )
         return Table(
-            ", ".join(facts),
+            units.joined(", ", facts),
             (
                 Column("crank angle", self.theta_deg, "°", digits=10),
                 Column("pressure", self.pressure, "Pa", digits=7),

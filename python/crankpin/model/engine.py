@@ -551,7 +551,7 @@ class Engine(Framed, Builders):
             columns["rotating mass", "kg"] = self.rotating_mass
         numbered = [(number, names[number]) for number in range(1, len(self) + 1)]
         rows = np.stack(list(columns.values()), axis=1)
-        title = "\n".join(self._summary())
+        title = units.joined("\n", self._summary())
         return Table.from_rows(title, ["cylinder", "bank", *columns], numbered, rows)
 
     def _summary(self) -> list[str]:
@@ -561,7 +561,7 @@ class Engine(Framed, Builders):
             banks = f"bank angle {self.bank_angle_deg:.6g}°"
         else:
             banks = f"{count} banks" if count > 1 else f"bores at {self.bank_deg[0]:.6g}°"
-        name = labels.printable(self.name) or "Engine"
+        name = labels.one_line(self.name) or "Engine"
         return [
             f"{labels.cut(name)}: {len(self)} cylinder{'s' * (len(self) > 1)}, {banks}",
             *(
@@ -579,7 +579,9 @@ class Engine(Framed, Builders):
 
     def _gas_text(self) -> str:
         """Return what is known of the pressure in the cylinders."""
-        return f"{self.loads_counted}; crankcase {self.crankcase:.6g} Pa" if self.fired else ""
+        if self.crankcase is None or not self.fired:
+            return ""
+        return units.Text(self.loads_counted, "; crankcase ", units.figure(self.crankcase, "Pa", 6))
 
     def _parts_text(self) -> str:
         """Return stroke, rod and reciprocating mass of the cylinders, as ranges if they differ."""
@@ -593,8 +595,9 @@ class Engine(Framed, Builders):
                 strict=True,
             )
         )
-        rod = "infinite rod" if np.isinf(parts[:, 1]).all() else f"rod {rod}"
-        return f"stroke {stroke}, {rod}, reciprocating mass {mass}"
+        rod = units.Text("rod ", rod)
+        rod = units.Text("infinite rod") if np.isinf(parts[:, 1]).all() else rod
+        return units.Text("stroke ", stroke, ", ", rod, ", reciprocating mass ", mass)
 
     def _throws_text(self) -> str:
         """Return throws and pin split, where they are defined."""

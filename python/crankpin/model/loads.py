@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.record import Input, read_only
 from crankpin._support.warnings import warn
 from crankpin.model.shafts import listed_items
@@ -324,15 +324,17 @@ def of_speed_squared(engine: Engine) -> Engine:
     return engine if len(kept) == len(engine.loads) else engine.with_loads(kept)
 
 
-def lines(core: _core.Engine) -> list[str]:
+def lines(core: _core.Engine) -> list[units.Text]:
     """Return the periodic loads in words."""
     listed = loads(core)
     found = []
     for each in listed[:4]:
         what = " and ".join(name for name in ("force", "torque") if getattr(each, name))
         on = "shaft and block" if each.on == "both" else each.on
-        found.append(f"load {labels.printable(each.name)}: {what} on {on}, z = {each.z:.4g} m")
-    return found + ["…"] * (len(listed) > 4)
+        name = labels.one_line(each.name)
+        words = f"load {name}: {what} on {on}, z = "
+        found.append(units.Text(words, units.figure(each.z, "m", 4)))
+    return found + [units.Text("…")] * (len(listed) > 4)
 
 
 def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, Any]:

@@ -81,7 +81,7 @@ class Odd(NamedTuple):
         """Return it in words."""
         name = f"traces[{self.cycle}]"
         if self.kind in {"spike", "oscillation"}:
-            height = units.figure(self.size, "bar", 3)
+            height = units.shown(units.figure(self.size, "bar", 3))
             has = "a spike of" if self.kind == "spike" else "oscillations of"
             return f"{name} has {has} {height} at {self.at_deg:.4g}°"
         if self.kind == "shifted":

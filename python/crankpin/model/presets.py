@@ -267,7 +267,7 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
         if typed
         else "crankpin.presets() lists all"
     )
-    shown = labels.cut(labels.printable(name), 80)
+    shown = labels.cut(labels.one_line(name), 80)
     hint = f"no such preset; {question}{built}{listing}"
     return inputs.faulty(argument, f'= "{shown}"', hint, AbsentItemError)
 

@@ -6,7 +6,7 @@ import dataclasses
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.record import Input
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
@@ -208,19 +208,25 @@ def repeat_in_a_turn(core: _core.Engine) -> bool:
     return all(ratio % 1 == 0 for ratio in ratios)
 
 
-def lines(core: _core.Engine) -> list[str]:
+def lines(core: _core.Engine) -> list[units.Text]:
     """Return counterweights, shafts and further crankshafts in words."""
     found = []
     for x, y, ratio in core.cranks[0][1:5]:
-        found.append(f"another crankshaft: ratio {ratio:+g} at ({x:.4g}, {y:.4g}) m")
+        found.append(units.Text(f"another crankshaft: ratio {ratio:+g} at ", _place(x, y)))
     if core.counterweights:
-        listed = ", ".join(map(_text, core.counterweights[:4]))
-        found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")
+        listed = units.joined(", ", map(_text, core.counterweights[:4]))
+        more = ", …" if len(core.counterweights) > 4 else ""
+        found.append(units.Text("counterweights: ", listed, more))
     for name, ratio, x, y, weights in core.shafts[:4]:
         total = sum(weight[0] for weight in weights)
-        title = f"balance shaft {labels.printable(name)}".strip()
-        found.append(f"{title}: ratio {ratio:+g} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
+        title = f"balance shaft {labels.one_line(name)}".strip()
+        amount = units.figure(total, "kg·m", 4)
+        found.append(units.Text(f"{title}: ratio {ratio:+g} at ", _place(x, y), ", ", amount))
     return found
+
+
+def _place(x: float, y: float) -> units.Figure:
+    return units.Figure((x, y), "m", ".4g", "({}, {})")
 
 
 def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
@@ -248,7 +254,8 @@ def unbalance_of(weight: _Weight) -> Unbalance:
         return Unbalance(amount, z, angle, None if pin is None else pin + 1, crank)
 
 
-def _text(weight: _Weight) -> str:
+def _text(weight: _Weight) -> units.Text:
     amount, angle, z, pin, crank = weight
     place = f"pin {pin + 1} + " if pin is not None else f"crank {crank}, " if crank else ""
-    return f"{amount:.4g} kg·m at {place}{inputs.degrees(angle):.6g}°, z = {z:.4g} m"
+    where = f" at {place}{inputs.degrees(angle):.6g}°, z = "
+    return units.Text(units.figure(amount, "kg·m", 4), where, units.figure(z, "m", 4))

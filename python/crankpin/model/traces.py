@@ -476,7 +476,7 @@ class Traces(Tabled, Input):
     @property
     def _title(self) -> str:
         count = f"{len(self)} cycle{'s' if len(self) > 1 else ''}"
-        return f"{labels.printable(self.name) or 'Traces'}, {count}"
+        return f"{labels.one_line(self.name) or 'Traces'}, {count}"
 
     @property
     def table(self) -> Table:
@@ -491,9 +491,11 @@ class Traces(Tabled, Input):
         }
         strokes = "four" if self.strokes == 4 else "two"
         return Table(
-            f"{self._title}, {strokes}-stroke, "
-            f"{len(self.theta_deg)} points ({self._raised_mean.grid}), "
-            f"noise {units.figure(self.noise / 1e5, 'bar', 2)}",
+            units.Text(
+                f"{self._title}, {strokes}-stroke, "
+                f"{len(self.theta_deg)} points ({self._raised_mean.grid}), noise ",
+                units.figure(self.noise / 1e5, "bar", 2),
+            ),
             (
                 Column("crank angle", self.theta_deg, "°", digits=10),
                 *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),

@@ -106,7 +106,8 @@ def _balance_shafts(
         named = f"{label}, {text}" if label else text
         ax.plot(values, rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
     numeric(ax.xaxis)
-    label_x(ax, f"{QUANTITIES[name].words} over ω², {QUANTITIES[name].unit_over_square}")
+    kind = QUANTITIES[name]
+    label_x(ax, units.headed(f"{kind.words} over ω²", kind.unit_over_square))
     add_legend(ax)
     return ax
 
@@ -273,7 +274,7 @@ def _bob_weight(
     if not any(np.any(values) for values in drawn):
         note_zero(ax)
     label_x(ax, "balance factor")
-    label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
+    label_y(ax, units.headed("half axes", QUANTITIES[name].unit_over_square))
     add_legend(ax)
     return ax
 

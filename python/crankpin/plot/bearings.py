@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
@@ -63,8 +63,8 @@ def polar(
         set_title(ax, *_titles(result, what))
         drawn = [vectors[k] for k in places]
         trace(ax, result.theta_deg, drawn, names, style, period, centred=False)
-        label_x(ax, f"{ALONG[axes][0]}, N")
-        label_y(ax, f"{ALONG[axes][1]}, N")
+        label_x(ax, units.headed(ALONG[axes][0], "N"))
+        label_y(ax, units.headed(ALONG[axes][1], "N"))
         add_legend(ax)
         return ax
     wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
@@ -112,7 +112,7 @@ def curves(
     span(ax, result.theta_deg)
     numeric(ax.yaxis)
     label_x(ax, "crank angle θ")
-    label_y(ax, f"{kind.words}, N")
+    label_y(ax, units.headed(kind.words, "N"))
     if not values.any():
         note_zero(ax)
     add_legend(ax)
@@ -151,8 +151,8 @@ def bending(
     span(ax, result.z)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
-    label_x(ax, "z, m (lines: main bearings)")
-    label_y(ax, "bending moment, N·m")
+    label_x(ax, units.Text(units.headed("z", "m"), " (lines: main bearings)"))
+    label_y(ax, units.headed("bending moment", "N·m"))
     if not any(ends):
         note_zero(ax)
     add_legend(ax)

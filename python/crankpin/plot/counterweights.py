@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
@@ -153,8 +153,8 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
     numeric(ax.yaxis)
     ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= 1.25 * largest])
     ax.text(0.01, 0.02, "crankpins", transform=ax.transAxes, fontsize="small", color=muted(ax))
-    label_x(ax, "z, m")
-    label_y(ax, "mass·radius, kg·m")
+    label_x(ax, units.headed("z", "m"))
+    label_y(ax, units.headed("mass·radius", "kg·m"))
 
 
 def _needles(

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.transforms import Bbox
 
-from crankpin._support import labels
+from crankpin._support import labels, units
 from crankpin.analysis.geometry import (
     assumed_bores,
     direction,
@@ -252,10 +252,10 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
-    (upright,) = in_units(ax.yaxis, "y, m")
+    (upright,) = in_units(ax.yaxis, units.headed("y", "m"))
     ax.set_ylabel(upright if len(lines) == 1 else f"{upright}, cranks apart")
-    along = "z, m" if to_scale else "z, m (not to the scale of y)"
-    (along,) = in_units(ax.xaxis, along)
+    scale = "" if to_scale else " (not to the scale of y)"
+    (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), scale))
     ax.set_xlabel(along)
 
 
@@ -360,7 +360,7 @@ def _loads(
         if k < MOST_LOADS:
             low = min(low, y) - line
             ax.plot([z, z], [y, low], linewidth=0.6, linestyle=":", **at)
-            text = labels.cut(labels.printable(", ".join(names)), LONGEST_NAMES)
+            text = labels.cut(labels.one_line(", ".join(names)), LONGEST_NAMES)
             write(ax, plain_text(text), complex(z, low), 3.0 + 0j, ha="left", fontsize="x-small")
         ax.update_datalim([(z, low)])
     return low

@@ -11,7 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, keep_apart, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
@@ -284,7 +284,7 @@ def _scale(
     logarithmic: bool,
 ) -> None:
     """Let the axis of the peaks begin at zero, or be logarithmic; label it with the row's name."""
-    unit = f"peak, {QUANTITIES[quantity].unit}"
+    unit = units.headed("peak", QUANTITIES[quantity].unit)
     for panel in panels:
         axis: Literal["x", "y"] = "x" if along == "engine" else "y"
         magnitude_scale(panel, peaks, logarithmic=logarithmic, name=axis)

@@ -54,8 +54,8 @@ def _cycle(
     """
     ax = axes_or_new(ax)
     first = not count_series(ax)
-    name = optional_text("label", label) or labels.printable(result.name) or "pressure"
-    set_title(ax, "Cylinder pressure", *([labels.printable(result.name)] if first else []))
+    name = optional_text("label", label) or labels.one_line(result.name) or "pressure"
+    set_title(ax, "Cylinder pressure", *([labels.one_line(result.name)] if first else []))
     # The curve is closed, a period later.
     end = result.theta_deg[0] + result.period_deg
     theta = np.append(result.theta_deg[result.theta_deg < end], end)
@@ -69,11 +69,11 @@ def _cycle(
         label_x(ax, "crank angle after the firing top dead centre")
     else:
         numeric(ax.xaxis)
-        label_x(ax, "volume swept, cm³")
+        label_x(ax, units.headed("volume swept", "cm³"))
     numeric(ax.yaxis)
     highest = max(float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES)
     from_zero(ax, highest)
-    label_y(ax, "absolute pressure, bar")
+    label_y(ax, units.headed("absolute pressure", "bar"))
     if not first:
         add_legend(ax)
     return ax
@@ -92,7 +92,7 @@ def _traces(
     """
     ax = axes_or_new(ax)
     first = not count_series(ax)
-    named = labels.printable(result.name)
+    named = labels.one_line(result.name)
     set_title(ax, "Cylinder pressure", *([named] if first and named else []))
     _band(result, ax, optional_text("label", label) or f"mean of {len(result)} cycles", style)
     label_x(ax, "crank angle after the firing top dead centre")
@@ -116,7 +116,7 @@ def _band(result: Traces, ax: Axes, name: str, style: dict[str, object]) -> None
     span(ax, theta)
     numeric(ax.yaxis)
     from_zero(ax, max(float(rows.max()), *(float(each) for each in ax.dataLim.intervaly)))
-    label_y(ax, "absolute pressure, bar")
+    label_y(ax, units.headed("absolute pressure", "bar"))
 
 
 @picture.register(PreparedTrace)
@@ -159,12 +159,12 @@ def _prepared(
         changes.plot(theta, change, gid=SERIES, label="change", **look)
         changes.axhline(0.0, **thin)
         numeric(changes.yaxis)
-        label_y(changes, "change, bar")
+        label_y(changes, units.headed("change", "bar"))
         span(changes, theta)
         degrees(changes.xaxis)
         label_x(changes, "crank angle after the firing top dead centre")
-    shown = [units.in_text(name) for name in result.names]
-    steps = [name.partition(" (")[0].partition(": ")[0] for name in shown[1:]]
+    shown = map(units.shown, result.names[1:])
+    steps = [name.partition(" (")[0].partition(": ")[0] for name in shown]
     panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
     return panels.drawn
 
@@ -198,8 +198,10 @@ def _flywheel(
     curves = {gas: result.torque}
     if result.engine is not None:
         curves |= {"inertia": result.inertia_torque, "sum": result.torque + result.inertia_torque}
-    drawn = [(curves, result.load, "load", "torque on the crank, N·m")]
-    drawn.append(({"speed": result.speed_rpm}, result.rpm + 0.0 * theta, "mean", "speed, rpm"))
+    drawn = [(curves, result.load, "load", units.headed("torque on the crank", "N·m"))]
+    drawn.append(
+        ({"speed": result.speed_rpm}, result.rpm + 0.0 * theta, "mean", units.Text("speed, rpm"))
+    )
     # On axes that were given, the speed alone.
     for panel, (lines, level, name, quantity) in zip(
         panels.axes[:, 0], drawn[-len(panels.axes) :], strict=True

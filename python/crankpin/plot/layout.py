@@ -362,12 +362,8 @@ def in_units(axis: Any, *lines: str) -> list[str]:  # noqa: ANN401 - of matplotl
 
     What is drawn remains in the unit of the result; ticks are where round numbers of the other are.
     """
-    *before, last = lines
-    shown, factor = units.after_comma(last)
-    if factor == 1.0:
-        shown, factor = units.convert(last)
-    axis.crankpin_factor = factor
-    return [*before, shown if factor != 1.0 else last]
+    axis.crankpin_factor = units.factor_of(lines[-1])
+    return [units.shown(line) for line in lines]
 
 
 def note_zero(ax: Axes, color: ColorType | None = None) -> None:

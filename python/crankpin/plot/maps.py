@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
@@ -238,7 +238,7 @@ def cells(
 
 
 def _of_bar(quantity: str) -> str:
-    return f"peak, {QUANTITIES[quantity].unit}"
+    return units.headed("peak", QUANTITIES[quantity].unit)
 
 
 def colour_bar(

@@ -147,7 +147,7 @@ def _designs(
     numeric(ax.yaxis)
     from_zero(ax, max(largest, float(own.max())))
     label_x(ax, "crank speed, rpm")
-    label_y(ax, "peak, N")
+    label_y(ax, units.headed("peak", "N"))
     words = "force on the body" if name is None else f"force of mount {name}"
     which = "all orders" if wanted is None else f"order {wanted}"
     set_title(
@@ -195,7 +195,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     label_x(ax, "natural frequency, Hz")
     label_y(ax, "purity → least found")
     name = labels.name_of(result.powertrain.engine)
-    on, _, title = result.table.title.removeprefix(name).strip().partition(": ")
+    on, _, title = units.shown(result.table.title).removeprefix(name).strip().partition(": ")
     set_title(ax, name, joined(on, title))
     add_legend(ax, last="nominal")
     return ax
@@ -235,11 +235,10 @@ def _axes(
             * is_dynamic
         ),
     ]
-    words = f"{rounded(result.angle_deg)}° and {rounded(1e3 * result.distance)} mm between the axes"
+    distance = units.shown(units.figure(1e3 * result.distance, "mm", 3))
+    words = f"{rounded(result.angle_deg)}° and {distance} between the axes"
     words += " at rest" if is_dynamic else ""
-    panels.set_title(
-        labels.name_of(powertrain.engine), joined("axes of roll", units.in_text(words))
-    )
+    panels.set_title(labels.name_of(powertrain.engine), joined("axes of roll", words))
     _views(panels, powertrain, lines, corners, style)
     return panels.drawn
 
@@ -306,8 +305,8 @@ def _views(
         equal_scales(place)
         numeric(place.xaxis)
         numeric(place.yaxis)
-        label_x(place, f"{'xyz'[right]}, m")
-        label_y(place, f"{'xyz'[up]}, m")
+        label_x(place, units.headed("xyz"[right], "m"))
+        label_y(place, units.headed("xyz"[up], "m"))
         if not panels.single:
             set_panel_title(place, name)
     panels.add_legend(panels.axes.flat[0].get_legend_handles_labels()[0])

@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.patches import Rectangle
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.record import changed
 from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, MountModes
@@ -269,7 +269,7 @@ def _cuts(
     _speed_axis(ax)
     before = max((float(np.max(line.get_ydata())) for line in ax.lines), default=0.0)
     from_zero(ax, before)
-    label_y(ax, f"peak, {drawn.unit}")
+    label_y(ax, units.headed("peak", drawn.unit))
     if not total.any():
         note_zero(ax)
     add_legend(ax)
@@ -390,7 +390,7 @@ def _bar_and_modes(
 ) -> None:
     """Add the bar of the peaks' colours, and a dashed line, x and y, for each mode."""
     bar = ax.get_figure(root=False).colorbar(peaks, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    label_bar(bar, f"peak, {unit}")
+    label_bar(bar, units.headed("peak", unit))
     bar.outline.set_visible(False)
     look: dict[str, Any] = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 2))}
     for along, height in modes:
@@ -436,7 +436,7 @@ def _spectrum(
     numeric(ax.xaxis, whole=True)
     numeric(ax.yaxis)
     label_x(ax, "order")
-    label_y(ax, f"peak, {drawn.unit}")
+    label_y(ax, units.headed("peak", drawn.unit))
     from_zero(ax, float(peaks.max(initial=0.0)))
     if not seen:
         note_zero(ax)

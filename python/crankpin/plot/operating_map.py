@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.operating_map import OF_WHEEL, OperatingMap
@@ -54,14 +54,14 @@ def _operating_map(
     ax = axes_or_new(ax)
     load = np.zeros(1) if result.load is None else result.load
     if min(values.shape) > 1:
-        _map(ax, result.rpm, load, values, f"{what}, {unit}", style)
+        _map(ax, result.rpm, load, values, units.headed(what, unit), style)
         where = ""
     else:
         over_speed = len(load) == 1
         along = result.rpm if over_speed else load
         _curve(ax, along, values.ravel(), label, style)
         label_x(ax, SPEED if over_speed else LOAD)
-        label_y(ax, f"{what}, {unit}")
+        label_y(ax, units.headed(what, unit))
         where = "" if over_speed else f"{number(float(result.rpm[0]))} rpm"
         if over_speed and result.load is not None:
             where = f"load {number(float(load[0]))}"

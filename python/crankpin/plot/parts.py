@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
 from crankpin.plot.layout import (
@@ -76,7 +76,7 @@ def parts(
             set_panel_title(panel, of)
         _draw(panel, sweep, vectors[row], along, style, column)
         if made.single or panel.get_subplotspec().is_first_col():
-            label_y(panel, QUANTITIES[name].words, QUANTITIES[name].unit)
+            label_y(panel, QUANTITIES[name].words, units.headed("", QUANTITIES[name].unit))
         if made.single or panel.get_subplotspec().is_last_row():
             label_x(panel, dimension(along))
     for of_order, vector in zip(panels, vectors, strict=True):

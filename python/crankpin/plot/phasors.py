@@ -294,8 +294,10 @@ def _points(ax: Axes) -> float:
 
 def _axis_label(kind: str, axis: int) -> str:
     if kind in PLANE_VECTORS:
-        return f"{QUANTITIES[kind].components[axis].split(' (')[0]}, {QUANTITIES[kind].unit}"
-    return f"{('real', 'imaginary')[axis]} part, {QUANTITIES[kind].unit}"
+        words = QUANTITIES[kind].components[axis].split(" (")[0]
+    else:
+        words = f"{('real', 'imaginary')[axis]} part"
+    return units.headed(words, QUANTITIES[kind].unit)
 
 
 # --- star diagrams --------------------------------------------------------------------------------

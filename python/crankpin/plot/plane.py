@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import (
     Panels,
@@ -224,8 +224,8 @@ def share_scale(panels: Panels) -> None:
 def label_panels(panels: Panels, along: str, across: str, unit: str) -> None:
     """Label the axes of all panels together."""
     for panel in panels.axes.flat:
-        (below,) = in_units(panel.xaxis, f"{along}, {unit}")
-        (beside,) = in_units(panel.yaxis, f"{across}, {unit}")
+        (below,) = in_units(panel.xaxis, units.headed(along, unit))
+        (beside,) = in_units(panel.yaxis, units.headed(across, unit))
     panels.figure.supxlabel(below, fontsize="medium")
     panels.figure.supylabel(beside, fontsize="medium")
 
@@ -234,8 +234,8 @@ def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:
     """Label both axes with the components of force or moment."""
     along_x, along_y = QUANTITIES[quantity].components
     unit = unit or QUANTITIES[quantity].unit
-    label_x(ax, f"{along_x}, {unit}")
-    label_y(ax, f"{along_y}, {unit}")
+    label_x(ax, units.headed(along_x, unit))
+    label_y(ax, units.headed(along_y, unit))
 
 
 def scale_plane(ax: Axes, reach: float = 1.15, *, centred: bool = True) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.plot.words import joined, loads_of, numbers, short_names
@@ -150,7 +150,7 @@ def dimension(dim: str) -> str:
         return dim
     name, symbol = labels.SWEPT[dim]
     # Degrees stand at the numbers.
-    return ", ".join(part for part in (name or "crank speed", symbol.strip(" °")) if part)
+    return units.headed(name or "crank speed", symbol.strip(" °"))
 
 
 def at(dim: str, value: float) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
@@ -118,7 +118,7 @@ def _panel(
         hollow(ax, np.zeros_like(zeros), zeros, colour, markersize=3.5)
     numeric(ax.xaxis)
     ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
-    label_x(ax, f"peak, {QUANTITIES[quantity].unit}")
+    label_x(ax, units.headed("peak", QUANTITIES[quantity].unit))
     ax.set_yticks(rows, [plain_text(name) for name in names])
     ax.tick_params(axis="y", length=0)
     ax.set_ylim(len(names) - 0.5, -0.5)

@@ -101,7 +101,7 @@ def table(
             _bars(place, _names(shown), panel, style)
         add_legend(place)
     if is_curve:
-        label_x(grid.axes[-1, 0], ", ".join(filter(None, [along.name, along.unit])))
+        label_x(grid.axes[-1, 0], units.headed(along.name, along.unit))
     notes = [f"{len(shown)} rows, {MOST_BARRED} drawn"] * (
         not is_curve and len(shown) > MOST_BARRED
     )
@@ -178,7 +178,7 @@ def _label(ax: Axes, panel: Panel, label: Callable[[Axes, str], None]) -> None:
     name = next(iter(panel.columns)) if len(panel.columns) == 1 else ""
     if panel.unit == "°":
         degrees(ax.yaxis if label is label_y else ax.xaxis)
-    label(ax, ", ".join(filter(None, [name, panel.unit])))
+    label(ax, units.headed(name, panel.unit))
 
 
 def _words(

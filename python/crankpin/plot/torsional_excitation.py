@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin.analysis.torsional_excitation import TorsionalExcitation
 from crankpin.plot.balance import ZERO, beside_each_other, scale_spectrum, stems
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 PARTS = {"gas": "gas", "inertia": "masses", "torque": "sum"}
 """Part of the torque → its name in a legend."""
-AMPLITUDE = "amplitude, N·m"
+AMPLITUDE = units.headed("amplitude", "N·m")
 
 
 @picture.register(TorsionalExcitation)

@@ -96,15 +96,15 @@ def drawn_quantity(
     return next((name for name in names if exists(name)), names[0])
 
 
-def objective_words(objective: Objective) -> str:
+def objective_words(objective: Objective) -> units.Text:
     """Return what an objective is, with its unit, for an axis."""
-    return ", ".join(filter(None, [objective.words.split(", ")[0], objective.unit]))
+    return units.headed(objective.words.split(", ")[0], objective.unit)
 
 
-def with_unit(quantity: str, *, peak: bool = False) -> str:
+def with_unit(quantity: str, *, peak: bool = False) -> units.Text:
     """Return the name of a quantity with its unit, for an axis."""
     name = QUANTITIES[quantity].words
-    return f"{'peak ' if peak else ''}{name}, {QUANTITIES[quantity].unit}"
+    return units.headed(f"{'peak ' if peak else ''}{name}", QUANTITIES[quantity].unit)
 
 
 def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:

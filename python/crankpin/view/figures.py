@@ -119,7 +119,7 @@ def figures(
         "units": in_units(UNITS),
         "sentences": []
         if compact or pairs
-        else [units.in_text(each) for each in Explanation(engine, float(rpm) or None).sentences],
+        else [*Explanation(engine, float(rpm) or None).sentences],
     }
 
 

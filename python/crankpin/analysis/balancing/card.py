@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import files, inputs, labels
+from crankpin._support import files, inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Column, Table
@@ -266,9 +266,11 @@ class Card(Tabled):
             torques = (omega_squared * bob._first_order.roll(factors)).tolist()
             if about:
                 columns.append(Column(f"roll torque{about}", tuple(torques), "N·m", digits=4))
-            nothing += f" but a roll torque of {torques[0]:.4g} N·m, which no weight changes"
+            torque = units.figure(torques[0], "N·m", 4)
+            nothing = units.Text(nothing, " but a roll torque of ", torque)
+            nothing = units.Text(nothing, ", which no weight changes")
         title = f"What order 1 leaves {labels.at_speed(self.rpm)}, half axes"
-        note = "" if len(columns) > 2 else f"{nothing}."
+        note = "" if len(columns) > 2 else units.Text(nothing, ".")
         return Table(title, tuple(columns), note)
 
     def _direction(self, quantity: str, factor: float) -> str:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import read_only
@@ -322,8 +322,9 @@ class Counterweights(Tabled):
         rows = []
         for name, (state, balance) in itertools.product(PLANE_VECTORS, states.items()):
             vector, kind = getattr(balance[1], name), QUANTITIES[name]
-            head = f"{kind.words}, {kind.unit_over_square}"
+            head = units.headed(kind.words, kind.unit_over_square)
             rows.append((head, state, float(vector.peak), abs(vector.minor)))
+        row_units = [QUANTITIES[name].unit_over_square for name in PLANE_VECTORS for _ in states]
         core = engine_core(self.engine)
         torques = {
             state: float(abs(_core.roll_torque(engine_core(bare), 1, None)))
@@ -334,7 +335,8 @@ class Counterweights(Tabled):
         }
         if any(torques.values()):
             unit = QUANTITIES["torque"].unit_over_square
-            head = f"roll torque{labels.about_axis(core.cranks[0])}, {unit}"
+            head = units.headed(f"roll torque{labels.about_axis(core.cranks[0])}", unit)
+            row_units += [unit] * len(torques)
             rows += [(head, state, torque, 0.0) for state, torque in torques.items()]
         words = [
             f"{part} {quantity} {verdict}"
@@ -346,5 +348,4 @@ class Counterweights(Tabled):
             note += f" {100.0 * self.missing:.3g} % of what was wanted is not removed."
         title = "Residual of order 1, half axes over ω²"
         heads = ["quantity", "state", "longest", "shortest"]
-        units = [row[0].rpartition(", ")[2] for row in rows]
-        return Table.from_rows(title, heads, rows, note=note, row_units=units)
+        return Table.from_rows(title, heads, rows, note=note, row_units=row_units)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
@@ -252,11 +252,11 @@ class BalanceShafts(Listed[Shaft], Tabled):
         rows = []
         for each in self.parts():
             kind = QUANTITIES[each.quantity]
-            quantity = f"{kind.words}, {kind.unit_over_square}"
+            quantity = units.headed(kind.words, kind.unit_over_square)
             rows.append((str(each.order), quantity, each.part, each.before, each.after))
         heads = ["order", "quantity", "part", "before", "after"]
-        units = [row[1].rpartition(", ")[2] for row in rows]
-        return Table.from_rows("Residual, over ω²", heads, rows, row_units=units)
+        row_units = [QUANTITIES[each.quantity].unit_over_square for each in self.parts()]
+        return Table.from_rows("Residual, over ω²", heads, rows, row_units=row_units)
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after.

@@ -70,8 +70,7 @@ class DrivenResponse(MountResponse):
         shape = (*self.forces.shape[:-2], 1, len(self.actuators))
         return {"forces": np.zeros(shape, dtype=complex)}
 
-    def _title(self, of: str) -> str:
-        return super()._title(of).replace("on its mounts", "on its mounts, with actuators", 1)
+    _driven = ", with actuators"
 
 
 class Cancellation(Tabled):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs
+from crankpin._support import inputs, units
 from crankpin._support.frames import Tabled
 from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
@@ -236,10 +236,11 @@ class VelocityFeedback(Tabled):
         state = "stable" if self.margin_db > 0.0 else "unstable"
         if (cut := self._cut) is not None:
             onset += f", within the tables of stiffness, {cut[0]:g} to {cut[1]:g} Hz"
-        note = (
-            f"Gain {self.applied_gain:.6g} N·s/m, {state}: margin {self.margin_db:.4g} dB to "
-            f"{self.largest_gain:.6g} N·s/m{onset}."
-        )
+        note = units.Text(
+            "Gain ", units.figure(self.applied_gain, "N·s/m", 6),
+            f", {state}: margin {self.margin_db:.4g} dB to ",
+            units.figure(self.largest_gain, "N·s/m", 6), f"{onset}.",
+        )  # fmt: skip
         title = f"{self.powertrain._title}: velocity fed back through {self.actuator.name!r}"
         return Table(title, columns, note)
 

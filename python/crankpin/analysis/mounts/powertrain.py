@@ -131,7 +131,11 @@ class Powertrain(Framed, Input):
     @property
     def _title(self) -> str:
         """Name in titles."""
-        return f"{labels.name_of(self.engine)} on its mounts{self._carried}"
+        return self._title_with("")
+
+    def _title_with(self, driven: str) -> str:
+        """Return the name in titles, with what drives it besides the engine."""
+        return f"{labels.name_of(self.engine)} on its mounts{driven}{self._carried}"
 
     @property
     def _carried(self) -> str:
@@ -154,7 +158,8 @@ class Powertrain(Framed, Input):
             ),
         )
         mass = units.figure(self.body.mass, "kg", 6)
-        return Table(f"{self._title}\nbody of {mass}", columns, loads=self.engine.loads_counted)
+        title = units.Text(f"{self._title}\nbody of ", mass)
+        return Table(title, columns, loads=self.engine.loads_counted)
 
     # --- questions --------------------------------------------------------------------------------
 

@@ -199,14 +199,14 @@ class PointMotion(Labelled):
             columns.append(Column(f"{name} rms", factor * values, unit))
         if result.dims and len(speeds := columns[0].data) > 1:
             largest = int(np.argmax(columns[2].data))
-            most = f"{columns[2].data[largest]:.4g} mm/s at {speeds[largest]:.10g} rpm"
-            note = f"Largest velocity {most}."
+            most = units.figure(columns[2].data[largest], "mm/s", 4)
+            note = units.Text("Largest velocity ", most, f" at {speeds[largest]:.10g} rpm.")
         if self.order in (None, ALL):
             grades = [HIGHEST if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()]
             columns.append(
                 Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
             )
-            note = f"{note} Grade: {SCOPE}".strip()
+            note = units.joined(" ", [note, f"Grade: {SCOPE}"])
         which = "" if order in (None, ALL) else f", order {order}"
         title = result._title(f"motion of {self._words}{which}")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
@@ -774,10 +774,13 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         left_out = [order for order, shown in zip(self.orders, kept, strict=True) if not shown]
         return np.flatnonzero(kept).tolist(), labels.not_shown(left_out)
 
+    _driven = ""
+    """What its titles say of actuators."""
+
     def _title(self, of: str) -> str:
         at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
         given = " of the orders given" if self._request.orders is not None else ""
-        return f"{self.powertrain._title}{at}: {of}{given}"
+        return units.Text(f"{self.powertrain._title_with(self._driven)}{at}: ", of, given)
 
     def _first_rows(self, rows: int, read: Callable[[Self], Table]) -> Table | None:
         """Return the table of the first speeds of many, which says how many there are."""
@@ -846,8 +849,9 @@ class MountResponse(MountQuantities, Keyed, Labelled):
                     continue
                 listed = (None if np.isnan(each) else each for each in values.tolist())
                 columns.append(Column(f"T {name}", tuple(listed), in_unit))
-        at = "the CG" if self._point is None else f"{self._point} m"
-        title = self._title(f"loads about {at}")
+        point = self._point and units.Figure(self._point, "m", "", "({}, {}, {})")
+        at = units.Text(point or "the CG")
+        title = self._title(units.Text("loads about ", at))
         return Table(title, tuple(columns), note, loads=self.loads_counted)
 
     def _of_power(self) -> Table:

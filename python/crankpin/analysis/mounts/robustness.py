@@ -129,11 +129,11 @@ class MountRobustness(Tabled):
         for head, values in (("purity", self.purity), ("least found", self.least_purity)):
             columns.append(Column(head, values, "%", decimals=1))
         shares = sorted({100.0 * share for share in self.stiffness})
-        parts = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
+        parts: list[str] = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
         parts += [f"mass ± {100 * self.mass:g} %"] if self.mass else []
         parts += [f"inertia ± {100 * self.inertia:g} %"] if self.inertia else []
-        parts += [f"CG ± {units.figure(1e3 * self.cg, 'mm', 6)}"] if self.cg else []
-        title = f"{self.powertrain._title}: {', '.join(parts)}"
+        parts += [units.Text("CG ± ", units.figure(1e3 * self.cg, "mm", 6))] if self.cg else []
+        title = units.Text(f"{self.powertrain._title}: ", units.joined(", ", parts))
         note = "Purity: the least that a search within the tolerance of stiffness found."
         return Table(title, tuple(columns), note if any(self.stiffness) else "")
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
 from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
@@ -116,13 +116,14 @@ class StaticState(Tabled):
         for cause, forces in zip(causes, self._forces, strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
-        x, y, z = 1e3 * self.sag
-        note = (
-            f"Sag of the CG ({x:.4g}, {y:.4g}, {z:.4g}) mm; wind-up {self.wind_up_deg[2]:.4g}° "
-            f"about z under {self.torque:.6g} N·m that leave the unit. The CG is "
-            f"{'inside' if self.support_margin > 0.0 else 'outside'} the mounts' polygon by "
-            f"{1e3 * abs(self.support_margin):.4g} mm. Static stiffness."
-        )
+        side = "inside" if self.support_margin > 0.0 else "outside"
+        note = units.Text(
+            "Sag of the CG ", units.Figure((*1e3 * self.sag,), "mm", ".4g", "({}, {}, {})"),
+            f"; wind-up {self.wind_up_deg[2]:.4g}° about z under ",
+            units.figure(self.torque, "N·m", 6),
+            f" that leave the unit. The CG is {side} the mounts' polygon by ",
+            units.figure(1e3 * abs(self.support_margin), "mm", 4), ". Static stiffness.",
+        )  # fmt: skip
         name, carried = labels.name_of(self.powertrain.engine), self.powertrain._carried
         on = f" on its mounts{carried}" if carried else ""
         title = f"{name}{on} at rest: forces on what carries the mounts"

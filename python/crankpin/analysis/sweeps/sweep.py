@@ -650,5 +650,5 @@ def engine_titles(sweep: Sweep) -> list[str]:
     names = titles if coordinate is None else [str(name) for name in coordinate]
     if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != titles:
         return names
-    without = [labels.printable(engine._title(with_bank_angle=False)) for engine in sweep.engines]
+    without = [labels.one_line(engine._title(with_bank_angle=False)) for engine in sweep.engines]
     return without if len(set(without)) == len(names) else names

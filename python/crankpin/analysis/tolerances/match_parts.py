@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, lazy
+from crankpin._support import inputs, lazy, units
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
 from crankpin._support.record import Record
@@ -351,5 +351,8 @@ class Match(Tabled):
             columns.append(Column("big end", tuple(big), "kg"))
         none = f"none is below {self.bound:.4g} {self.unit}"
         known = "no assignment is better" if self.exact else none
-        title = f"{WORDS[self.by]}: {self.value:.4g} {self.unit}, {known}"
-        return Table(f"{title}; as given {self.initial_value:.4g} {self.unit}", tuple(columns))
+        before, after = (
+            units.figure(value, self.unit, 4) for value in (self.initial_value, self.value)
+        )
+        title = units.Text(f"{WORDS[self.by]}: ", after, f", {known}; as given ", before)
+        return Table(title, tuple(columns))

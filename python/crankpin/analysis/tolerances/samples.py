@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels
+from crankpin._support import inputs, labels, units
 from crankpin._support import progress as progress_bar
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -498,7 +498,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
             figures = (self.nominal_value(by), self.mean(by), self.std(by))
             rows.append((by, self._objective(by).unit, *figures, *self.quantile(by=by).tolist()))
         engine = labels.name_of(self.engine)
-        title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
+        title = units.Text(
+            f"{engine} at {self.rpm:g} rpm: {self.samples} samples, ", self.figures.text
+        )
         of_torque = any("torque" in self._objective(by).quantity for by in self.by)
         return Table.from_rows(
             title,

@@ -91,15 +91,18 @@ class Spreads:
         return [places[number] for number in sorted(places)]
 
     @property
-    def text(self) -> str:
+    def text(self) -> units.Text:
         """The spreads in words."""
-        parts = []
+        parts = list[str]()
         for name in self.given:
             spreads = self.values[FIGURES.index(name)]
             title, unit = labels.TOLERANCES[name]
-            shown = units.figure(min(spreads), unit, 4, max(spreads))
-            parts.append(f"{title} {shown}".replace(" °", "°"))
-        return f"{SPREADS[self.distribution]}: {', '.join(parts)}"
+            ends = min(spreads), max(spreads)
+            if unit == "°":
+                parts.append(f"{title} {' to '.join(f'{end:.4g}' for end in dict.fromkeys(ends))}°")
+            else:
+                parts.append(units.Text(f"{title} ", units.figure(ends[0], unit, 4, ends[1])))
+        return units.Text(f"{SPREADS[self.distribution]}: ", units.joined(", ", parts))
 
 
 def deviating(
