@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.collections import QuadMesh
     from numpy.typing import NDArray
 
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 MOST_ENGINES = 4
 """Engines with a row of their own."""
+DOTTED = "white dots: exactly zero"
+"""Note on a map with dots."""
 MOST_ZEROS = 60
 """Maximum number of points at which a quantity vanishes that are marked."""
 RANGE = 1e-4
@@ -63,11 +66,11 @@ def heat_map(
     if "engine" in sweep.coords:
         scales = [scale(np.stack(grids))] * len(grids)
     vanishes = [
-        _heat(row_panels, coords, grid, name, norm, style)
+        heat(row_panels, coords, grid, _of_bar(name), norm, style)
         for grid, row_panels, norm in zip(grids, panels.axes, scales, strict=True)
     ]
     _label_all(panels, along, up, rows)
-    notes = [note, "white dots: exactly zero" if any(vanishes) else ""]
+    notes = [note, DOTTED if any(vanishes) else ""]
     what = [f"{rows.rows[0].name}, {rows.columns[0]}"] if panels.single else []
     panels.set_title(words.title, words.subtitle(name), *what, *notes)
     return panels.drawn
@@ -158,15 +161,15 @@ def _rows(
     return rows._replace(rows=kept), f"{rest} more engines not shown" if rest else ""
 
 
-def _heat(
+def heat(
     panels: Sequence[Axes] | NDArray[Any],
     coords: Sequence[NDArray[np.float64]],
     peaks: NDArray[np.float64],
-    quantity: str,
+    label: str,
     norm: Normalize,
     style: dict[str, Any],
 ) -> bool:
-    """Draw a row of panels in colours of a scale, white dots at zeros.
+    """Draw a row of panels, peaks (along y, along x, panel) in colours of a scale, dots at zeros.
 
     Return True if there are such dots.
     """
@@ -187,7 +190,7 @@ def _heat(
         if not peaks.any():
             note_zero(panel, color="white")
     if peaks.any():  # a scale of nothing would mislead
-        colour_bar(panels, mesh, _of_bar(quantity), peaks)
+        colour_bar(panels, mesh, label, peaks)
     return dotted
 
 
@@ -242,7 +245,10 @@ def _of_bar(quantity: str) -> str:
 
 
 def colour_bar(
-    panels: Sequence[Axes] | NDArray[Any], mesh: QuadMesh, label: str, peaks: NDArray[np.float64]
+    panels: Sequence[Axes] | NDArray[Any],
+    mesh: ScalarMappable,
+    label: str,
+    peaks: NDArray[np.float64],
 ) -> None:
     """Draw the scale of colours of peaks, pointed where some are below it."""
     below = ((peaks > 0.0) & (peaks < (mesh.norm.vmin or 0.0))).any()

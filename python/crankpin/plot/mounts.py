@@ -16,16 +16,8 @@ from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, Mou
 from crankpin.analysis.mounts.response import READ, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL, Quantity
 from crankpin.model.supports import Receptance
-from crankpin.plot.layout import (
-    add_legend,
-    axes_or_new,
-    label_bar,
-    label_x,
-    label_y,
-    note_zero,
-    set_title,
-)
-from crankpin.plot.maps import RANGE
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.maps import RANGE, cells, colour_bar
 from crankpin.plot.style import (
     SERIES,
     background,
@@ -43,7 +35,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
     from matplotlib.typing import ColorType
     from numpy.typing import NDArray
 
@@ -288,27 +279,23 @@ def _map(
 ) -> str:
     """Draw a row of cells for each order over speed; the modes' frequencies across them."""
     rpm = _speeds(result, "map", label)
-    columns = np.argsort(rpm, kind="stable")
-    peaks = np.array([drawn.read(order)[columns] for order in orders])
+    peaks = np.stack([drawn.read(order) for order in orders], axis=-1)[..., np.newaxis]
     _speed_axis(ax)
     label_y(ax, "order")
     if not peaks.any():
         note_zero(ax)
         return ""
-    step = 1.0 if all(float(order).is_integer() for order in orders) else 0.5
-    rows = np.arange(step, max(orders) + step, step)
-    cells = np.full((len(rows), len(rpm)), np.nan)
-    for order, values in zip(orders, peaks, strict=True):
-        cells[round(order / step) - 1] = np.where(values > 0.0, values, np.nan)
     largest = float(peaks.max())
+    peaks = np.where(peaks > 0.0, np.maximum(peaks, RANGE * largest), 0.0)
     norm = LogNorm(RANGE * largest, largest)
-    options: dict[str, Any] = {"shading": "nearest", "norm": norm, "rasterized": True} | style
-    mesh = ax.pcolormesh(rpm[columns], rows, np.maximum(cells, RANGE * largest), **options)
+    mesh = cells([ax], rpm, orders, peaks, {"norm": norm} | style)
     natural, note = _natural(result)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
-    _bar_and_modes(ax, mesh, drawn.unit, [(fine, 60.0 * each / fine) for each in natural], "black")
+    colour_bar([ax], mesh, units.headed("peak", drawn.unit), peaks)
+    limits = ax.get_ylim()
+    _dashed(ax, [(fine, 60.0 * frequency / fine) for frequency in natural], "black")
     ax.set_xlim(float(rpm.min()), float(rpm.max()))
-    ax.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
+    ax.set_ylim(limits)
     numeric(ax.yaxis, whole=True)
     return note
 
@@ -377,7 +364,8 @@ def _waterfall(
     low, high = float(rpm[0]), float(tips.max())
     limits = low - 0.5 * step, high + 0.1 * (high - low)
     upright = [((each, each), limits) for each in natural if each < right]
-    _bar_and_modes(ax, stems, drawn.unit, upright, muted(ax, 0.7))
+    colour_bar([ax], stems, units.headed("peak", drawn.unit), np.maximum(peaks, SEEN * largest))
+    _dashed(ax, upright, muted(ax, 0.7))
     _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
     ax.set_xscale("log")
     ax.set_xlim(left, right)
@@ -385,13 +373,8 @@ def _waterfall(
     return note
 
 
-def _bar_and_modes(
-    ax: Axes, peaks: ScalarMappable, unit: str, modes: Sequence[tuple[Any, Any]], colour: ColorType
-) -> None:
-    """Add the bar of the peaks' colours, and a dashed line, x and y, for each mode."""
-    bar = ax.get_figure(root=False).colorbar(peaks, ax=ax, aspect=25, pad=0.02)  # type: ignore[union-attr]
-    label_bar(bar, units.headed("peak", unit))
-    bar.outline.set_visible(False)
+def _dashed(ax: Axes, modes: Sequence[tuple[Any, Any]], colour: ColorType) -> None:
+    """Draw a dashed line, x and y, for each mode."""
     look: dict[str, Any] = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 2))}
     for along, height in modes:
         ax.plot(along, height, gid="crankpin modes", zorder=1.5, **look)

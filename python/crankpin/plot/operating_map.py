@@ -11,8 +11,8 @@ from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.operating_map import OF_WHEEL, OperatingMap
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
-from crankpin.plot.maps import colour_bar, scale_from_zero
-from crankpin.plot.style import SERIES, count_series, of_maps, series
+from crankpin.plot.maps import DOTTED, heat, scale_from_zero
+from crankpin.plot.style import SERIES, count_series, series
 from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, loads_of, number
 
@@ -54,8 +54,14 @@ def _operating_map(
     ax = axes_or_new(ax)
     load = np.zeros(1) if result.load is None else result.load
     if min(values.shape) > 1:
-        _map(ax, result.rpm, load, values, units.headed(what, unit), style)
-        where = ""
+        coords, label_of_bar = [result.rpm, load], units.headed(what, unit)
+        cells = values.T[..., np.newaxis]
+        dotted = heat([ax], coords, cells, label_of_bar, scale_from_zero(values), style)
+        numeric(ax.xaxis)
+        numeric(ax.yaxis)
+        label_x(ax, SPEED)
+        label_y(ax, LOAD)
+        where = DOTTED if dotted else ""
     else:
         over_speed = len(load) == 1
         along = result.rpm if over_speed else load
@@ -82,29 +88,6 @@ def _quantity(result: OperatingMap, quantity: str) -> tuple[str, str, NDArray[np
     values = result.read(name).reshape(-1, count)
     factor, unit = OF_WHEEL[name]
     return name.removesuffix("_deg"), unit, factor * values
-
-
-def _map(
-    ax: Axes,
-    rpm: NDArray[np.float64],
-    load: NDArray[np.float64],
-    values: NDArray[np.float64],
-    text: str,
-    style: dict[str, Any],
-) -> None:
-    columns, rows = np.argsort(rpm, kind="stable"), np.argsort(load, kind="stable")
-    options: dict[str, Any] = {"shading": "nearest", "norm": scale_from_zero(values)}
-    options |= {"rasterized": True, "cmap": of_maps()} | style
-    cells = values.T[np.ix_(rows, columns)]
-    mesh = ax.pcolormesh(rpm[columns], load[rows], cells, **options)
-    if values.any():
-        colour_bar([ax], mesh, text, values)
-    else:
-        note_zero(ax, color="white")
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    label_x(ax, SPEED)
-    label_y(ax, LOAD)
 
 
 def _curve(
