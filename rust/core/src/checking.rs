@@ -700,14 +700,14 @@ impl<'a> Case<'a> {
             let acts = [turning(x, y), turning(mx, my)].concat();
             let acts = acts.iter().chain([&roll]).map(|one| one.norm() > self.slack(rpm, false));
             let alone = whole.iter().position(|own| own == order).map(|k| &bare[k]);
-            for (k, (verdict, acts)) in verdicts.iter().zip(acts).enumerate() {
+            for ((quantity, verdict), acts) in verdicts.indices().zip(verdicts).zip(acts) {
                 let is_right = match alone {
                     _ if acts => *verdict != Verdict::Vanishes,
-                    Some(alone) => *verdict == alone[k] || *verdict == Verdict::Undecided,
+                    Some(alone) => *verdict == alone[quantity] || *verdict == Verdict::Undecided,
                     None => true,
                 };
                 if !is_right {
-                    let reading = format!("proof of quantity {k} of order {order}");
+                    let reading = format!("proof of {quantity:?} of order {order}");
                     return Err(Error::value(
                         reading,
                         format!("{verdict:?}"),

@@ -3,7 +3,7 @@
 use crate::array::frozen;
 use crankpin_core as core;
 use crankpin_core::exact::star::Stars;
-use crankpin_core::exact::vanishing::{QUANTITIES, Vanishing, Verdict};
+use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Vanishing, Verdict};
 use crankpin_core::{Complex64, Order};
 use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
@@ -41,9 +41,9 @@ pub fn vanishing<'py>(
     let Vanishing { verdicts, within_rounding, obstacles, .. } = interrupt::run(py, |cancel| {
         core::exact::vanishing::vanishing(engine, &orders, reference_z, firing, cancel)
     })?;
-    let table = |value: &dyn Fn(usize, usize) -> bool| {
+    let table = |value: &dyn Fn(usize, ProofQuantity) -> bool| {
         let shape = (verdicts.len(), QUANTITIES.len());
-        frozen(py, Array2::from_shape_fn(shape, |(k, quantity)| value(k, quantity)))
+        frozen(py, Array2::from_shape_fn(shape, |(k, place)| value(k, QUANTITIES[place])))
     };
     Ok((
         table(&|k, quantity| verdicts[k][quantity] == Verdict::Vanishes)?,
