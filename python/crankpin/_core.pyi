@@ -1,7 +1,7 @@
 # The compiled core; private. Results are read-only arrays.
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar, Self, TypeAlias, final
+from typing import Any, ClassVar, Self, TypeAlias, TypedDict, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -367,6 +367,15 @@ def fit_weights(
 ) -> tuple[list[tuple[int, int, _Weight]], bool, float]: ...
 def with_bob_weights(engine: Engine, factor: float) -> Engine: ...
 def masses_on_pins(engine: Engine) -> list[tuple[float, float]]: ...
+
+class _Correction(TypedDict):
+    plane: int
+    amount: float
+    add_at_deg: float
+    drill_at_deg: float
+    mass: float | None
+    heavy_metal: float | None
+
 def corrections(
     engine: Engine,
     factor: float,
@@ -374,7 +383,7 @@ def corrections(
     radii: Sequence[float] | None,
     oil: float,
     balanced_to: Sequence[float] | None,
-) -> list[tuple[int, float, float, float, float | None, float | None]]: ...
+) -> list[_Correction]: ...
 def fit_shafts(
     engine: Engine,
     wanted: Sequence[tuple[float, _FreeAxis, Sequence[float] | None, str]],
@@ -382,6 +391,18 @@ def fit_shafts(
 ) -> tuple[list[tuple[tuple[float, float], list[_Weight], _Turning]], float | None]: ...
 def pair_heights(forward: complex, backward: complex, torque: complex) -> list[float]: ...
 def shared(forces: Sequence[tuple[complex, float]], front: float, rear: float) -> list[complex]: ...
+
+class _Speed(TypedDict):
+    speed: _Real
+    moving_inertia: _Real
+    inertia_torque: _Real
+    inertia: float
+    irregularity: float
+    energy: float
+    mean_torque: float
+    acceleration: float
+    extremes: list[float]
+    approximations: tuple[float, float]
 
 @final
 class CycleGrid:
@@ -398,7 +419,7 @@ class CycleGrid:
         rpm: float,
         inertia: float | None,
         irregularity: float,
-    ) -> tuple[list[_Real], list[float]]: ...
+    ) -> _Speed: ...
 
 @final
 class Balance:
@@ -431,6 +452,15 @@ class FirstOrder:
     def straight(self, quantity: str) -> list[tuple[float, float]]: ...
     def direction(self, quantity: str, factor: float, sides: tuple[str, str]) -> str: ...
 
+class _Finding(TypedDict):
+    kind: str
+    quantity: str
+    orders: list[int | float]
+    values: list[float]
+    reason: str
+    groups: list[list[int]]
+    proved: bool
+
 @final
 class Explanation:
     @property
@@ -440,9 +470,7 @@ class Explanation:
     @property
     def lever(self) -> float: ...
     @property
-    def findings(
-        self,
-    ) -> list[tuple[str, str, list[int | float], list[float], str, list[list[int]], bool]]: ...
+    def findings(self) -> list[_Finding]: ...
     def sentences(
         self, loads: str, units: Sequence[tuple[str, str, float]], count: int | None = None
     ) -> list[str]: ...
@@ -467,6 +495,13 @@ class Search:
     @property
     def distinct(self) -> int: ...
 
+class _Solution(TypedDict):
+    bank_angle_deg: float
+    first_deg: tuple[float, ...]
+    second_deg: tuple[float, ...]
+    counterweight: float
+    second_order: tuple[float, float]
+
 @final
 class BankAngles:
     def __new__(
@@ -474,9 +509,7 @@ class BankAngles:
     ) -> BankAngles: ...
     def __len__(self) -> int: ...
     def degrees(self) -> _Real: ...
-    def solution(
-        self, k: int, by: str
-    ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...
+    def solution(self, k: int, by: str) -> _Solution: ...
 
 @final
 class CrankAngles:
@@ -651,11 +684,11 @@ class BearingLoadsModel:
     def __new__(cls, engine: Engine, rpm: float) -> Self: ...
     def places(self) -> list[float]: ...
     def shares(self) -> _Real: ...
-    def loads(self, theta_deg: _Real) -> tuple[_Real, _Real, _Real, _Real, _Real, _Real]: ...
+    def loads(self, theta_deg: _Real) -> dict[str, _Real]: ...
     def turned(self, bearing: str, axes: str, theta_deg: _Real) -> _Real: ...
     def mains(self) -> list[tuple[int, float]]: ...
     def sections(self, part: str, crank: int, theta_deg: _Real) -> tuple[_Real, _Real]: ...
-    def extremes(self, cycle_deg: int) -> list[_Real]: ...
+    def extremes(self, cycle_deg: int) -> dict[str, _Real]: ...
     def tension(self, cycle_deg: int) -> list[list[tuple[float, float]]]: ...
 
 def exact_angle(argument: str, degrees: float | str) -> str: ...
@@ -741,9 +774,21 @@ def terms(
 def explain(engine: Engine, rpm: float | None, vectors: bool) -> Explanation: ...
 def gas_text(names: Sequence[str | None], count: int) -> str: ...
 def dead_text(fires: Sequence[bool]) -> str: ...
-def star(
-    firing: Firing, halves: Sequence[int], weights: Sequence[float]
-) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...
+
+class _Star(TypedDict):
+    vectors: _Complex
+    sums: _Complex
+    vanishes: NDArray[np.bool_]
+    remains: NDArray[np.bool_]
+    is_major: NDArray[np.bool_]
+
+class _Proofs(TypedDict):
+    vanishes: NDArray[np.bool_]
+    remains: NDArray[np.bool_]
+    within_rounding: NDArray[np.bool_]
+    obstacles: list[str]
+
+def star(firing: Firing, halves: Sequence[int], weights: Sequence[float]) -> _Star: ...
 def places_on_axis(name: str, axis: _Real, values: _Real) -> tuple[NDArray[np.int64], _Real]: ...
 def volume_ratios(
     parts: _Parts, bore: float | None, compression_ratio: float, strokes: int, theta_deg: _Real
@@ -751,15 +796,33 @@ def volume_ratios(
 def repeats_first(argument: str, theta_deg: _Real, period_deg: float) -> bool | None: ...
 def vanishing(
     engine: Engine, halves: Sequence[int], reference_z: float | None, firing: Firing | None
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], list[str]]: ...
+) -> _Proofs: ...
 
 _Fraction: TypeAlias = tuple[int, int]
-_Part: TypeAlias = tuple[_Fraction, _Fraction, int, _Fraction, _Fraction]
-_Coefficients: TypeAlias = tuple[list[int], list[int], list[int]]
 
-def closed_form(
-    engine: Engine, order: int, moment: bool, reference_z: float | None
-) -> tuple[int, float, bool, list[_Part], int, int, list[_Coefficients], list[int]]: ...
+class _Part(TypedDict):
+    weight: _Fraction
+    lever: _Fraction
+    sense: int
+    direction: _Fraction
+    phase: _Fraction
+
+class _Coefficients(TypedDict):
+    real: list[int]
+    imaginary: list[int]
+    square: list[int]
+
+class _Form(TypedDict):
+    unit: int
+    spacing: float
+    no_harmonic: bool
+    parts: list[_Part]
+    period: int
+    denominator: int
+    phasors: list[_Coefficients]
+    loads: list[int]
+
+def closed_form(engine: Engine, order: int, moment: bool, reference_z: float | None) -> _Form: ...
 def waveform(
     engine: Engine,
     rpm: float,

@@ -321,8 +321,10 @@ def said(draft: Draft) -> Iterator[tuple[str, float, bool]]:
                 form = engine.closed_form(order, "force" if quantity == "force" else "moment")
             except cp.InputError:
                 continue
-            for part, (real, imaginary, square) in form._phasors.items():
-                nothing = form._zero or not any(real + imaginary + square)
+            for part in ("x", "y", "forward", "backward"):
+                phasor = form._coefficients(part)
+                terms = phasor["real"] + phasor["imaginary"] + phasor["square"]
+                nothing = form._form["no_harmonic"] or not any(terms)
                 yield f"form: {quantity} {part}", order, nothing == zero(quantity, order, [part])
     for finding in engine.explain(3000.0).findings:
         if finding.kind == "gas orders":

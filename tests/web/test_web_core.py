@@ -118,11 +118,11 @@ def test_what_vanishes_is_proved_alike(ask: Ask) -> None:
         *("moment.x", "moment.y", "moment.forward", "moment.backward", "torque", "torque.gas"),
     ]
     for engine, found in zip(listed, results(ask, calls), strict=True):
-        vanishes, remains, *_ = _core.vanishing(engine._core, list(range(2, 25, 2)), None, None)
+        proofs = _core.vanishing(engine._core, list(range(2, 25, 2)), None, None)
         for k, entry in enumerate(found["orders"]):
             verdicts = [entry[name]["verdict"] for name in names]
-            assert [verdict == "vanishes" for verdict in verdicts] == vanishes[k].tolist()
-            assert [verdict == "remains" for verdict in verdicts] == remains[k].tolist()
+            assert [verdict == "vanishes" for verdict in verdicts] == proofs["vanishes"][k].tolist()
+            assert [verdict == "remains" for verdict in verdicts] == proofs["remains"][k].tolist()
 
 
 def test_waveforms_and_sweeps_are_the_librarys(ask: Ask) -> None:

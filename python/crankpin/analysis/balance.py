@@ -15,6 +15,7 @@ from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.export import VALUES
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.analysis.vanishing import SUMS
 from crankpin.model import shafts as rotating
 from crankpin.model.loads import of_speed_squared
 
@@ -164,13 +165,16 @@ class Balance(ByOrder[float]):
         if self._request.pairs is not None or (whole == "torque" and any(self._request.aside)):
             return False
         core, plane = engine_core(engine), self._request.reference_z
-        vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
+        proofs = _core.vanishing(core, [round(2 * order)], plane, None)
+        vanishes = dict(zip(SUMS, proofs["vanishes"][0], strict=True))
         if whole == "crank_torque" and any(ratio < 0 for _, _, ratio in core.cranks[0]):
             return False  # cranks of opposite senses exert on the block what adds up on the crank
+        if kind_of(whole).planar:
+            return bool(vanishes[whole, "x"] and vanishes[whole, "y"])
         # A torque of inertia on the crank vanishes with that on the block.
-        at = {"force": slice(0, 2), "moment": slice(4, 6)}
-        parts = {"inertia": slice(8, 9), "gas": slice(9, 10), "": slice(8, 10 if self.fired else 9)}
-        return bool(vanishes[at.get(whole, parts[part])].all())
+        without_inertia = part == "gas" or bool(vanishes["torque", "z"])
+        without_gas = part == "inertia" or not (part or self.fired)
+        return without_inertia and (without_gas or bool(vanishes["gas_torque", "z"]))
 
     def _read_order(self, order: Order, quantity: str, what: str) -> Any:  # noqa: ANN401 - as read
         if what == "peak" and self._within is None and not any(self._request.aside):

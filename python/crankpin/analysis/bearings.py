@@ -187,7 +187,7 @@ class BearingLoads(InsideLoads, Labelled):
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         core = _core.BearingLoadsModel(engine, rpm)
-        by_name = dict(zip(LOADS, core.loads(theta), strict=True))
+        by_name = core.loads(theta)
         at_any_angle = inputs.flag("at_any_angle", self.at_any_angle)
         self.__dict__.update(rpm=rpm, theta_deg=theta, at_any_angle=at_any_angle)
         self.__dict__.update(_model=core, _by_name=by_name)
@@ -387,8 +387,7 @@ class BearingLoads(InsideLoads, Labelled):
 
     @cached_property
     def _extremes(self) -> dict[str, NDArray[np.float64]]:
-        extremes = self._core.extremes(180 * self.engine.strokes)
-        return dict(zip(INSIDE, extremes, strict=True))
+        return self._core.extremes(180 * self.engine.strokes)
 
     @cached_property
     def shares(self) -> NDArray[np.float64]:

@@ -85,32 +85,22 @@ class ClosedForm(Tabled):
     loads: tuple[PeriodicLoad, ...] = field(init=False, compare=False)
     """Periodic loads that act at the order: those of ``P1``, ``P2``, …."""
     _unit: Expression = field(init=False, compare=False)
-    _zero: bool = field(init=False, compare=False)
-    _parts: list[Any] = field(init=False, compare=False)
-    _period: int = field(init=False, compare=False)
-    _denominator: int = field(init=False, compare=False)
-    _phasors: dict[str, tuple[list[int], list[int], list[int]]] = field(init=False, compare=False)
+    _form: _core._Form = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
         sp = optional.library("sympy")
         moment = self.quantity == "moment"
-        unit, spacing, zero, parts, period, denominator, phasors, acting = _core.closed_form(
-            engine_core(self.engine), self.order, moment, self.plane
-        )
+        form = _core.closed_form(engine_core(self.engine), self.order, moment, self.plane)
         F, a = sp.Symbol("F", positive=True), sp.Symbol("a", positive=True)
         self.__dict__.update(
-            unit_cylinder=unit + 1,
-            spacing=spacing,
+            unit_cylinder=form["unit"] + 1,
+            spacing=form["spacing"],
             F=F,
             a=a,
             theta=sp.Symbol("theta", real=True),
-            loads=tuple(self.engine.loads[k] for k in acting),
+            loads=tuple(self.engine.loads[k] for k in form["loads"]),
             _unit=a * F if moment else F,
-            _zero=zero,
-            _parts=parts,
-            _period=period,
-            _denominator=denominator,
-            _phasors=dict(zip(COMPONENTS, phasors, strict=True)),
+            _form=form,
         )
 
     @property
@@ -248,18 +238,23 @@ class ClosedForm(Tabled):
     def _cosines(self, coefficients: list[int], denominator: int) -> Expression:
         """Return Σ cₖ 2cos(2πk/N), in radicals where SymPy knows them."""
         sp = optional.library("sympy")
-        if self._zero:
+        if self._form["no_harmonic"]:
             return sp.Integer(0)
+        period = self._form["period"]
         terms = [
-            sp.Rational(c, denominator) * (2 * sp.cos(2 * sp.pi * k / self._period) if k else 1)
+            sp.Rational(c, denominator) * (2 * sp.cos(2 * sp.pi * k / period) if k else 1)
             for k, c in enumerate(coefficients)
             if c
         ]
         return sp.expand(sp.Add(*terms))
 
     def _parts_of(self, axis: str) -> tuple[Expression, Expression]:
-        real, imaginary, _ = self._phasors[axis]
-        return (self._cosines(real, self._denominator), self._cosines(imaginary, self._denominator))
+        phasor, denominator = self._coefficients(axis), self._form["denominator"]
+        real = self._cosines(phasor["real"], denominator)
+        return real, self._cosines(phasor["imaginary"], denominator)
+
+    def _coefficients(self, axis: str) -> _core._Coefficients:
+        return self._form["phasors"][COMPONENTS.index(axis)]
 
     def _phasor(self, axis: str) -> Expression:
         real, imaginary = self._parts_of(axis)
@@ -306,7 +301,7 @@ class ClosedForm(Tabled):
 
     def _size(self, axis: str) -> Expression:
         sp = optional.library("sympy")
-        square = self._cosines(self._phasors[axis][2], self._denominator**2)
+        square = self._cosines(self._coefficients(axis)["square"], self._form["denominator"] ** 2)
         if square.has(sp.cos):
             return sp.sqrt(square)
         return sp.sqrtdenest(sp.sqrt(square))
@@ -320,7 +315,7 @@ class ClosedForm(Tabled):
             return sp.atan2(imaginary, real) if real != imaginary else sp.Integer(0)
         ratio = imaginary / real
         # Radicals of 2, 3 and 6 alone: dividing by them is cheap, and atan knows some values.
-        if 24 % self._period == 0:
+        if 24 % self._form["period"] == 0:
             ratio = sp.radsimp(ratio)
         if real.evalf() > 0:
             return sp.atan(ratio)
@@ -329,7 +324,7 @@ class ClosedForm(Tabled):
     def _terms(self, axis: str) -> tuple[Expression, ...]:
         sp = optional.library("sympy")
         of_loads = tuple(self._over_angle(self._of_load(k, axis)) for k in range(len(self.loads)))
-        if self._zero:
+        if self._form["no_harmonic"]:
             return of_loads
         # The moment of a force about x comes from its part along y, and is negative.
         moment = self.quantity == "moment"
@@ -337,9 +332,11 @@ class ClosedForm(Tabled):
         if axis == "y":
             sign = 1
         terms = []
-        for weight, lever, sense, direction, phase in self._parts:
-            factor = sign * sp.Rational(*weight) * sp.Rational(*lever) * self._unit
-            lag = self.order * Fraction(*phase)
+        for part in self._form["parts"]:
+            sense, direction = part["sense"], part["direction"]
+            weight, lever = sp.Rational(*part["weight"]), sp.Rational(*part["lever"])
+            factor = sign * weight * lever * self._unit
+            lag = self.order * Fraction(*part["phase"])
             if sense:
                 # What rotates is along y a quarter of a turn after x, or before.
                 start = sense * Fraction(*direction) - lag

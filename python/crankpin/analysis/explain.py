@@ -146,9 +146,9 @@ class Explanation(Tabled):
     def findings(self) -> tuple[Finding, ...]:
         """Facts behind the sentences, as data."""
         return tuple(
-            Finding(kind, quantity, tuple(orders), tuple(values), reason,
-                    tuple(map(tuple, groups)), proved)
-            for kind, quantity, orders, values, reason, groups, proved in self._explained.findings
+            Finding(each["kind"], each["quantity"], tuple(each["orders"]), tuple(each["values"]),
+                    each["reason"], tuple(map(tuple, each["groups"])), each["proved"])
+            for each in self._explained.findings
         )  # fmt: skip
 
     @cached_property

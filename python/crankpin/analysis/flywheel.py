@@ -161,7 +161,7 @@ def flywheel(
         knots = np.concatenate([knots, *(against.knots + start for start in turns)])
     grid = _core.CycleGrid(period, knots)
     nodes, edges = grid.nodes_deg, grid.edges_deg
-    (speed, moving, of_inertia), figures = grid.speed(
+    found = grid.speed(
         torque.at(nodes),
         np.zeros(nodes.shape) if against is None else against.at(nodes),
         None if engine is None else engine._core,
@@ -169,25 +169,25 @@ def flywheel(
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
-    needed, uneven, energy, mean, acceleration, lowest, highest, *approximate = figures
+    lowest, highest = found["extremes"]
     of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
         inputs.number("rpm", rpm),
-        needed,
-        uneven,
-        energy,
-        mean,
-        acceleration,
+        found["inertia"],
+        found["irregularity"],
+        found["energy"],
+        found["mean_torque"],
+        found["acceleration"],
         lowest / of_one_rpm,
         highest / of_one_rpm,
-        (approximate[0], approximate[1]),
+        found["approximations"],
         edges,
-        speed / of_one_rpm,
+        found["speed"] / of_one_rpm,
         torque.at(edges),
-        np.full(edges.shape, mean) if against is None else against.at(edges),
-        of_inertia,
-        moving,
+        np.full(edges.shape, found["mean_torque"]) if against is None else against.at(edges),
+        found["inertia_torque"],
+        found["moving_inertia"],
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -61,7 +61,7 @@ class StarDiagram(Keyed, Tabled):
     """Length of each cylinder's vector, by number."""
 
     @cached_property
-    def _core(self) -> tuple[NDArray[Any], ...]:
+    def _core(self) -> _core._Star:
         return _core.star(
             self.firing._core, [round(2 * order) for order in self.orders], list(self.mode_shape)
         )
@@ -74,12 +74,12 @@ class StarDiagram(Keyed, Tabled):
     @property
     def vectors(self) -> NDArray[np.complex128]:
         """Vectors by cylinder number: (n_orders, n_cylinders)."""
-        return self._core[0]
+        return self._core["vectors"]
 
     @property
     def sums(self) -> NDArray[np.complex128]:
         """Sums of the vectors, (n_orders,): zero where proved to vanish, or within rounding."""
-        return self._core[1]
+        return self._core["sums"]
 
     @property
     def peak(self) -> NDArray[np.float64]:
@@ -89,7 +89,7 @@ class StarDiagram(Keyed, Tabled):
     @cached_property
     def verdicts(self) -> Verdicts:
         """Verdicts on the sums by order: "vanishes", "remains" or "undecided", in integers."""
-        pairs = zip(self._core[2], self._core[3], strict=True)
+        pairs = zip(self._core["vanishes"], self._core["remains"], strict=True)
         words = ("vanishes" if zero else "remains" if not_zero else "undecided"
                  for zero, not_zero in pairs)  # fmt: skip
         return Verdicts(self.orders, tuple(words), tuple(map(bool, self.sums == 0.0)))
@@ -97,7 +97,8 @@ class StarDiagram(Keyed, Tabled):
     @property
     def major(self) -> tuple[Order, ...]:
         """Major orders: those at which all cylinders that fire have one phase."""
-        return tuple(n for n, major in zip(self.orders, self._core[4], strict=True) if major)
+        is_major = self._core["is_major"]
+        return tuple(n for n, major in zip(self.orders, is_major, strict=True) if major)
 
     def __getitem__(self, order: Order) -> complex:
         """Return the sum of an order.

@@ -216,14 +216,10 @@ class VanishingOrders(Tabled):
             # An engine with cycles knows its firing; at whole orders a turn changes nothing.
             firing = fires.firing(self.engine, None, None)._core
         halves = [round(2 * order) for order in self.orders]
-        vanishes, remains, within, obstacles = _core.vanishing(core, halves, self.plane, firing)
-        self.__dict__.update(
-            vanishes=vanishes,
-            remains=remains,
-            undecided=read_only(~(vanishes | remains)),
-            within_rounding=within,
-            obstacles=tuple(obstacles),
-        )
+        proofs = _core.vanishing(core, halves, self.plane, firing)
+        undecided = read_only(~(proofs["vanishes"] | proofs["remains"]))
+        obstacles = tuple(proofs["obstacles"])
+        self.__dict__.update(proofs, undecided=undecided, obstacles=obstacles)
 
     @property
     def sums(self) -> tuple[tuple[str, str], ...]:

@@ -4,6 +4,7 @@
 //! speed and turned bank, and compared with what readings of engines with the load, and without it, differ by.
 
 use std::f64::consts::TAU;
+use std::fmt::Display;
 use std::sync::Arc;
 
 use crate::Complex64;
@@ -86,17 +87,42 @@ pub fn check_source(load: &PeriodicLoad, measured: Option<Measured>) -> Result<(
 }
 
 /// Rejects a figure of a reading that is not the plain one.
-fn same(reading: &str, found: Complex64, expected: Complex64, slack: f64) -> Result<()> {
+fn same(
+    reading: impl Display,
+    found: impl Into<Complex64>,
+    expected: impl Into<Complex64>,
+    slack: f64,
+) -> Result<()> {
+    let (found, expected) = (found.into(), expected.into());
     if (found - expected).norm() <= slack {
         return Ok(());
     }
     let hint = format!("plain sums of the amplitudes of its source make {expected:.9e}");
-    Err(Error::value(reading, format!("{found:.9e}"), hint))
+    Err(rejected(reading, format!("{found:.9e}"), hint))
+}
+
+/// [`same`], of all of [`NAMES`] at some order or crank angle.
+fn same_six<T: Into<Complex64>>(
+    reading: &str,
+    at: impl Display,
+    [found, expected]: [[T; 6]; 2],
+    slack: f64,
+) -> Result<()> {
+    let pairs = found.into_iter().zip(expected);
+    let mut named = NAMES.iter().zip(pairs);
+    named.try_for_each(|(what, (found, expected))| {
+        same(format_args!("{reading}: {what} {at}"), found, expected, slack)
+    })
+}
+
+/// The error of a reading.
+fn rejected(reading: impl Display, found: impl Display, hint: impl Into<String>) -> Error {
+    Error::value(reading.to_string(), found, hint)
 }
 
 /// Rejects what a source says of itself.
-fn wrong(of: &str, found: impl std::fmt::Display, hint: &str) -> Error {
-    Error::value(format!("Source::{of}"), found, hint)
+fn wrong(of: &str, found: impl Display, hint: &str) -> Error {
+    rejected(format_args!("Source::{of}"), found, hint)
 }
 
 /// What a source says, by order.
@@ -129,53 +155,21 @@ impl StatedAmplitudes {
         }
         let Series { mut orders, rest, .. } = series(UpTo::Halves(2 * HIGHEST_SUMMED))?;
         orders.retain(|order| order.halves() <= 2 * HIGHEST_SUMMED);
+        let has_halves =
+            parts.repeats != Repeats::EveryTurn || parts.force == Some(ForcePart::Turning);
         let half = orders.iter().find(|order| order.as_whole().is_none());
-        if let Some(half) = half.filter(|_| {
-            parts.repeats == Repeats::EveryTurn && parts.force != Some(ForcePart::Turning)
-        }) {
-            return Err(wrong(
-                "series",
-                half,
-                "has a half order, and says that it repeats in every turn",
-            ));
+        if let Some(half) = half.filter(|_| !has_halves) {
+            let hint = "has a half order, and says that it repeats in every turn";
+            return Err(wrong("series", half, hint));
         }
-        let at = |orders: &[Order]| -> Result<(Vec<[Complex64; 3]>, [f64; 2])> {
-            let forces = match parts.force {
-                Some(_) => source.force(orders, &cancel)?,
-                None => vec![Complex64::ZERO; orders.len()], // bounded: by HIGHEST_SUMMED
-            };
-            if !parts.roll {
-                return Ok((
-                    forces
-                        .into_iter()
-                        .map(|force| [force, Complex64::ZERO, Complex64::ZERO])
-                        .collect(),
-                    [0.0; 2],
-                ));
-            }
-            let torque = source.torque(orders, &cancel)?;
-            let torques = torque.harmonics.roll.iter().zip(&torque.harmonics.crank);
-            if [forces.len(), torques.len()] != [orders.len(); 2] {
-                return Err(wrong(
-                    "force",
-                    forces.len(),
-                    "give one amplitude for each order, of force and torque",
-                ));
-            }
-            let all = forces
-                .into_iter()
-                .zip(torques)
-                .map(|(force, (roll, crank))| [force, *roll, *crank]);
-            Ok((all.collect(), torque.mean))
-        };
-        let (values, mean) = at(&orders)?;
+        let (values, mean) = Self::at(source, &orders)?;
         let all: Vec<Order> = (1..=4 * 16).map(Order::from_halves).collect::<Result<_>>()?;
         let largest = values.iter().flatten().map(|value| value.norm()).fold(0.0, f64::max);
-        for (order, of_order) in all.iter().zip(at(&all)?.0) {
+        for (order, of_order) in all.iter().zip(Self::at(source, &all)?.0) {
             let own = orders.binary_search(order).map_or([Complex64::ZERO; 3], |k| values[k]);
             for (found, expected) in of_order.into_iter().zip(own) {
-                let reading = format!("Source::force or torque at order {order}");
-                same(&reading, found, expected, READING_ROUNDING * largest)?;
+                let reading = format_args!("Source::force or torque at order {order}");
+                same(reading, found, expected, READING_ROUNDING * largest)?;
             }
         }
         let checked = Self { orders, values, mean, tail: [rest.force, rest.torque] };
@@ -197,6 +191,28 @@ impl StatedAmplitudes {
             checked.check_rest(some, halves)?;
         }
         Ok(checked)
+    }
+
+    /// Amplitudes at some orders, and mean torques.
+    fn at(source: &dyn Source, orders: &[Order]) -> Result<(Vec<[Complex64; 3]>, [f64; 2])> {
+        let (cancel, parts) = (Cancel::new(), source.parts());
+        let forces = match parts.force {
+            Some(_) => source.force(orders, &cancel)?,
+            None => vec![Complex64::ZERO; orders.len()], // bounded: by HIGHEST_SUMMED
+        };
+        if !parts.roll {
+            let alone = |force| [force, Complex64::ZERO, Complex64::ZERO];
+            return Ok((forces.into_iter().map(alone).collect(), [0.0; 2]));
+        }
+        let torque = source.torque(orders, &cancel)?;
+        let torques = torque.harmonics.roll.iter().zip(&torque.harmonics.crank);
+        if [forces.len(), torques.len()] != [orders.len(); 2] {
+            let hint = "give one amplitude for each order, of force and torque";
+            return Err(wrong("force", forces.len(), hint));
+        }
+        let all = forces.into_iter().zip(torques);
+        let all = all.map(|(force, (roll, crank))| [force, *roll, *crank]);
+        Ok((all.collect(), torque.mean))
     }
 
     /// Checks that a series up to a number of halves has its orders and amplitudes, and that the rest is bounded.
@@ -232,7 +248,7 @@ impl StatedAmplitudes {
         for (order, values) in
             self.orders.iter().zip(&self.values).filter(|(order, _)| order.halves() > halves)
         {
-            let unit = Complex64::cis(order.number() * theta_deg / 360.0 * TAU);
+            let unit = turned_by(*order, theta_deg);
             sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += (value * unit).re);
         }
         sum
@@ -261,6 +277,11 @@ impl StatedAmplitudes {
         }
         Ok(())
     }
+}
+
+/// What an order turns by at a crank angle, degrees.
+fn turned_by(order: Order, theta_deg: f64) -> Complex64 {
+    Complex64::cis(order.number() * theta_deg / 360.0 * TAU)
 }
 
 /// What amplitudes are multiplied by at a speed.
@@ -312,24 +333,8 @@ impl<'a> Case<'a> {
             bare = bare.with_cranks(cranks, vec![0, last])?;
         }
         if fired {
-            let theta_deg: Vec<f64> = (0..144).map(|k| 5.0 * f64::from(k)).collect();
-            let pressure = |theta: &f64| 1e5 + 2e6 * (-((theta - 60.0) / 25.0).powi(2)).exp();
-            let pressure = theta_deg.iter().map(pressure).collect();
-            let cycle = Cycle::new(Given {
-                name: String::new(),
-                strokes: 4,
-                theta_deg,
-                pressure,
-                degree: None,
-            })?;
             let details = vec![Details { bore: Some(0.08), ..Details::default() }; 2];
-            let gas = Gas {
-                cycles: vec![Arc::new(cycle)],
-                cycle_of: vec![Some(0); 2],
-                crankcase: 1e5,
-                later: vec![false; 2],
-            };
-            bare = bare.with_details(details)?.with_gas(gas)?;
+            bare = bare.with_details(details)?.with_gas(Self::gas()?)?;
         }
         let with = bare.with_loads(vec![load.clone()])?;
         let parts = load.source.as_ref().map(|source| source.parts());
@@ -338,6 +343,17 @@ impl<'a> Case<'a> {
         let rounding = [4.0 * mass * radius, if fired { 1e3 } else { 0.0 }];
         let (bare, with, cancel) = (Arc::new(bare), Arc::new(with), Cancel::new());
         Ok(Self { load, amplitudes, scaling, force, bare, with, rounding, cancel })
+    }
+
+    /// A pressure with a single hump, in both cylinders.
+    fn gas() -> Result<Gas> {
+        let theta_deg: Vec<f64> = (0..144).map(|k| 5.0 * f64::from(k)).collect();
+        let pressure = |theta: &f64| 1e5 + 2e6 * (-((theta - 60.0) / 25.0).powi(2)).exp();
+        let pressure = theta_deg.iter().map(pressure).collect();
+        let name = String::new();
+        let cycle = Cycle::new(Given { name, strokes: 4, theta_deg, pressure, degree: None })?;
+        let (cycles, cycle_of) = (vec![Arc::new(cycle)], vec![Some(0); 2]);
+        Ok(Gas { cycles, cycle_of, crankcase: 1e5, later: vec![false; 2] })
     }
 
     fn factor(&self, rpm: f64) -> f64 {
@@ -393,7 +409,7 @@ impl<'a> Case<'a> {
         for (k, &order) in
             self.amplitudes.orders.iter().enumerate().filter(|(_, order)| is_counted(**order))
         {
-            let unit = Complex64::cis(order.number() * theta_deg / 360.0 * TAU);
+            let unit = turned_by(order, theta_deg);
             let six = self.six(k, rpm, point, [0.0; 2]);
             sum.iter_mut().zip(six).for_each(|(sum, one)| *sum += (one * unit).re);
         }
@@ -451,15 +467,8 @@ impl<'a> Case<'a> {
         point: [f64; 3],
     ) -> Result<()> {
         let expected = self.plain(order, rpm, point, [0.0; 2]);
-        for (what, (found, expected)) in NAMES.iter().zip(found.into_iter().zip(expected)) {
-            same(
-                &format!("{reading}: {what} of order {order}"),
-                found,
-                expected,
-                self.slack(rpm, false),
-            )?;
-        }
-        Ok(())
+        let at = format_args!("of order {order}");
+        same_six(reading, at, [found, expected], self.slack(rpm, false))
     }
 
     fn check_balances(&self) -> Result<()> {
@@ -470,11 +479,8 @@ impl<'a> Case<'a> {
                 balance(&self.with, &request, &Orders::Given(orders.clone()), &self.cancel)?;
             let found = found.moved([point[0], point[1], 0.0]);
             if !found.names().iter().any(|own| **own == *name) {
-                return Err(Error::value(
-                    "names of a balance",
-                    format!("{:?}", found.names()),
-                    "lack its name",
-                ));
+                let names = format!("{:?}", found.names());
+                return Err(rejected("names of a balance", names, "lack its name"));
             }
             let own = found.of_part(Part::Of(name));
             for (k, &order) in orders.iter().enumerate() {
@@ -487,26 +493,16 @@ impl<'a> Case<'a> {
                     let square = (rpm * TAU / 60.0).powi(2);
                     let [at_speed, at_none] = rolls;
                     same("roll_torque", (at_speed? - bare) * square, about, self.slack(rpm, true))?;
-                    if at_none.is_ok()
-                        && self.scaling != Scaling::SpeedSquared
-                        && about.norm() > 0.0
-                    {
-                        return Err(Error::value(
-                            "roll_torque",
-                            "a figure",
-                            "needs a speed, and asked for none",
-                        ));
+                    let needs_speed = self.scaling != Scaling::SpeedSquared && about.norm() > 0.0;
+                    if at_none.is_ok() && needs_speed {
+                        let hint = "needs a speed, and asked for none";
+                        return Err(rejected("roll_torque", "a figure", hint));
                     }
                 }
             }
             let mean = self.amplitudes.mean.map(|mean| mean * self.factor(rpm));
             for (found, expected) in found.mean(Part::Of(name)).into_iter().zip(mean) {
-                same(
-                    "mean torque of a balance",
-                    found.into(),
-                    expected.into(),
-                    self.slack(rpm, false),
-                )?;
+                same("mean torque of a balance", found, expected, self.slack(rpm, false))?;
             }
             // It is the last of all parts.
             let parts = terms(&self.with, &request, [point[0], point[1]], &orders, &self.cancel)?;
@@ -539,22 +535,17 @@ impl<'a> Case<'a> {
             ] {
                 for theta in (0..96).map(|k| 7.5 * f64::from(k)) {
                     let left = self.sum(rpm, theta, point, |order| !orders.contains(&order));
-                    let left = [
-                        left[0].hypot(left[1]),
-                        left[2].hypot(left[3]),
-                        left[4].abs().max(left[5].abs()),
-                    ];
-                    for (what, (left, bound)) in ["force", "moment", "torque"]
-                        .iter()
-                        .zip(left.into_iter().zip(bound.values()))
-                    {
+                    let [x, y, about_x, about_y, roll, crank] = left;
+                    let torque = roll.abs().max(crank.abs());
+                    for (what, left, bound) in [
+                        ("force", x.hypot(y), bound.force),
+                        ("moment", about_x.hypot(about_y), bound.moment),
+                        ("torque", torque, bound.torque),
+                    ] {
                         if left > bound + self.slack(rpm, false) {
                             let hint = format!("its orders that are left out make {left:?}");
-                            return Err(Error::figure(
-                                format!("{reading}: bound of {what}"),
-                                bound,
-                                hint,
-                            ));
+                            let reading = format!("{reading}: bound of {what}");
+                            return Err(Error::figure(reading, bound, hint));
                         }
                     }
                 }
@@ -590,16 +581,8 @@ impl<'a> Case<'a> {
                     .map(|torque| torque.each_ref().map(|of| of[i]));
                 let [a, b, c, d] = planar.unwrap_or_default();
                 let [e, f] = torque.unwrap_or_default();
-                for (what, (found, expected)) in
-                    NAMES.iter().zip([a, b, c, d, e, f].into_iter().zip(expected))
-                {
-                    same(
-                        &format!("{reading}: {what} at {theta}°"),
-                        found.into(),
-                        expected.into(),
-                        slack,
-                    )?;
-                }
+                let pair = [[a, b, c, d, e, f], expected];
+                same_six(reading, format_args!("at {theta}°"), pair, slack)?;
             }
         }
         Ok(())
@@ -633,26 +616,21 @@ impl<'a> Case<'a> {
                 let mut means = vec![0.0; rows]; // bounded: by speeds and angles
                 sweep.write_peaks(quantity, Statistic::Mean, &mut means, &self.cancel)?;
                 let theta = 33.0;
+                let angles = CrankAngles::new(&[theta])?;
                 let mut values = vec![0.0; rows * width]; // bounded: by speeds and angles
-                sweep.waveforms(
-                    quantity,
-                    &CrankAngles::new(&[theta])?,
-                    false,
-                    &mut values,
-                    &self.cancel,
-                )?;
+                sweep.waveforms(quantity, &angles, false, &mut values, &self.cancel)?;
                 for row in 0..rows {
                     let (turn, rpm) = (turns[row / SPEEDS.len()], SPEEDS[row % SPEEDS.len()]);
                     let turn = if self.load.cylinder.is_some() { turn } else { 0.0 };
                     let turned = [turn, if hold == Hold::Pins { turn } else { 0.0 }];
                     let slack = self.slack(rpm, false);
-                    let mean = if first < 4 {
-                        0.0
-                    } else {
-                        self.amplitudes.mean[first - 4] * self.factor(rpm)
+                    let mean = match kind {
+                        Kind::Force | Kind::Moment => 0.0,
+                        Kind::Torque => self.amplitudes.mean[0] * self.factor(rpm),
+                        Kind::CrankTorque => self.amplitudes.mean[1] * self.factor(rpm),
                     };
-                    if first >= 4 {
-                        same("mean torque of a sweep", means[row].into(), mean.into(), slack)?;
+                    if !quantity.is_planar() {
+                        same("mean torque of a sweep", means[row], mean, slack)?;
                     }
                     for component in 0..width {
                         let mut sum = mean;
@@ -660,22 +638,13 @@ impl<'a> Case<'a> {
                             let expected = self.plain(order, rpm, point, turned)[first + component];
                             let found = phasors[(row * orders.len() + k) * width + component];
                             let what = NAMES[first + component];
-                            same(
-                                &format!("sweep: {what} of order {order} at {rpm} rpm"),
-                                found,
-                                expected,
-                                slack,
-                            )?;
-                            sum += (expected
-                                * Complex64::cis(order.number() * theta / 360.0 * TAU))
-                            .re;
+                            let reading =
+                                format_args!("sweep: {what} of order {order} at {rpm} rpm");
+                            same(reading, found, expected, slack)?;
+                            let unit = turned_by(order, theta);
+                            sum += (expected * unit).re;
                         }
-                        same(
-                            "waveform of a sweep",
-                            values[row * width + component].into(),
-                            sum.into(),
-                            slack,
-                        )?;
+                        same("waveform of a sweep", values[row * width + component], sum, slack)?;
                     }
                 }
             }
@@ -700,19 +669,16 @@ impl<'a> Case<'a> {
             let acts = [turning(x, y), turning(mx, my)].concat();
             let acts = acts.iter().chain([&roll]).map(|one| one.norm() > self.slack(rpm, false));
             let alone = whole.iter().position(|own| own == order).map(|k| &bare[k]);
-            for (k, (verdict, acts)) in verdicts.iter().zip(acts).enumerate() {
+            for ((quantity, verdict), acts) in verdicts.indices().zip(verdicts).zip(acts) {
                 let is_right = match alone {
                     _ if acts => *verdict != Verdict::Vanishes,
-                    Some(alone) => *verdict == alone[k] || *verdict == Verdict::Undecided,
+                    Some(alone) => *verdict == alone[quantity] || *verdict == Verdict::Undecided,
                     None => true,
                 };
                 if !is_right {
-                    let reading = format!("proof of quantity {k} of order {order}");
-                    return Err(Error::value(
-                        reading,
-                        format!("{verdict:?}"),
-                        "it acts there, or nothing does",
-                    ));
+                    let reading = format_args!("proof of {quantity:?} of order {order}");
+                    let hint = "it acts there, or nothing does";
+                    return Err(rejected(reading, format_args!("{verdict:?}"), hint));
                 }
             }
         }
@@ -734,14 +700,12 @@ impl<'a> Case<'a> {
         let slack = self.slack(rpm, true) + self.factor(rpm) * self.amplitudes.tail[0];
         for (i, theta) in thetas.iter().enumerate() {
             for axis in 0..2 {
-                let force: f64 = (0..self.amplitudes.orders.len())
-                    .map(|k| {
-                        let unit = Complex64::cis(
-                            self.amplitudes.orders[k].number() * theta / 360.0 * TAU,
-                        );
-                        (self.on_shaft(k, rpm, [0.0; 2])[axis] * unit).re
-                    })
-                    .sum();
+                let orders = self.amplitudes.orders.iter().enumerate();
+                let of_order = |(k, order): (usize, &Order)| {
+                    let unit = turned_by(*order, *theta);
+                    (self.on_shaft(k, rpm, [0.0; 2])[axis] * unit).re
+                };
+                let force: f64 = orders.map(of_order).sum();
                 let on_mains = |z0: f64| -> f64 {
                     let own = |(main, z): (usize, &f64)| {
                         (z - z0) * (with[[main, i, axis]] - bare[[main, i, axis]])
@@ -750,21 +714,12 @@ impl<'a> Case<'a> {
                 };
                 let force_on_mains = on_mains(-1.0) - on_mains(0.0);
                 let expected = if carried { force } else { 0.0 };
-                same(
-                    "force on main bearings",
-                    force_on_mains.into(),
-                    expected.into(),
-                    10.0 * slack,
-                )?;
-                same(
-                    "moment of main bearings",
-                    on_mains(0.0).into(),
-                    (expected * self.load.z).into(),
-                    10.0 * slack,
-                )?;
+                same("force on main bearings", force_on_mains, expected, 10.0 * slack)?;
+                let (moment, about) = (on_mains(0.0), expected * self.load.z);
+                same("moment of main bearings", moment, about, 10.0 * slack)?;
                 let net = if self.load.on == ActsOn::Both { 0.0 } else { force };
                 let found = shear[[i, axis]] - bare_shear[[i, axis]];
-                same("force on the crankcase", found.into(), net.into(), 10.0 * slack)?;
+                same("force on the crankcase", found, net, 10.0 * slack)?;
             }
         }
         Ok(())
@@ -775,39 +730,24 @@ impl<'a> Case<'a> {
         let inertia = [[8.0, 0.0, 0.0], [0.0, 12.0, 0.0], [0.0, 0.0, 6.0]];
         let body = RigidBody::new(150.0, cg, inertia, None)?;
         let mount = |(name, x, z): (&str, f64, f64)| {
-            let (at, stiffness) = ([x, 0.0, z], [2e5, 4e5, 2e5]);
-            let loss_factor = [0.1; 3];
-            Mount::new(MountFigures {
-                name: name.into(),
-                at,
-                stiffness,
-                loss_factor,
-                ..MountFigures::default()
-            })
+            let (name, at, loss_factor) = (name.into(), [x, 0.0, z], [0.1; 3]);
+            let stiffness = [2e5, 4e5, 2e5];
+            let others = MountFigures::default();
+            Mount::new(MountFigures { name, at, stiffness, loss_factor, ..others })
         };
         let mounts = [("a", -0.3, 0.1), ("b", 0.3, 0.1), ("c", 0.0, 0.6)].map(mount);
         let powertrain =
             Arc::new(Powertrain::new(body, mounts.into_iter().collect::<Result<_>>()?)?);
-        let of = |engine| {
-            Response::new(
-                engine,
-                Arc::clone(&powertrain),
-                &SPEEDS,
-                &Orders::Given(orders.clone()),
-                &self.cancel,
-            )
-        };
+        let given = Orders::Given(orders.clone());
+        let of =
+            |engine| Response::new(engine, Arc::clone(&powertrain), &SPEEDS, &given, &self.cancel);
         let (with, bare) = (of(&self.with)?, of(&self.bare)?);
         for (row, (with, bare)) in with.loads().iter().zip(bare.loads()).enumerate() {
             let (rpm, order) = (SPEEDS[row / orders.len()], orders[row % orders.len()]);
             let [x, y, mx, my, roll, _] = self.plain(order, rpm, cg, [0.0; 2]);
+            let reading = format_args!("load of mounts at order {order}");
             for (k, expected) in [x, y, Complex64::ZERO, mx, my, roll].into_iter().enumerate() {
-                same(
-                    &format!("load of mounts at order {order}"),
-                    with[k] - bare[k],
-                    expected,
-                    self.slack(rpm, true),
-                )?;
+                same(reading, with[k] - bare[k], expected, self.slack(rpm, true))?;
             }
         }
         Ok(())
@@ -828,22 +768,12 @@ impl<'a> Case<'a> {
         let (with, bare) = (of(&self.with)?, of(&self.bare)?);
         for (k, &order) in orders.iter().enumerate() {
             let expected = self.plain(order, rpm, point, [0.0; 2]);
-            let pairs = [
-                (with.force[k][0], bare.force[k][0]),
-                (with.force[k][1], bare.force[k][1]),
-                (with.moment[k][0], bare.moment[k][0]),
-                (with.moment[k][1], bare.moment[k][1]),
-                (with.torque[k][0], bare.torque[k][0]),
-                (with.torque[k][1], bare.torque[k][1]),
-            ];
-            for ((with, bare), expected) in pairs.into_iter().zip(expected) {
-                same(
-                    &format!("tolerances at order {order}"),
-                    with - bare,
-                    expected,
-                    self.slack(rpm, true),
-                )?;
-            }
+            let planar = [(&with.force, &bare.force), (&with.moment, &bare.moment)];
+            let [[x, y], [about_x, about_y]] =
+                planar.map(|(with, bare)| [0, 1].map(|axis| with[k][axis] - bare[k][axis]));
+            let [roll, crank] = [0, 1].map(|on| with.torque[k][on] - bare.torque[k][on]);
+            let pair = [[x, y, about_x, about_y, roll, crank], expected];
+            same_six("tolerances", format_args!("of order {order}"), pair, self.slack(rpm, true))?;
         }
         Ok(())
     }
@@ -853,7 +783,7 @@ impl<'a> Case<'a> {
         let text = self.with.loads_counted();
         // Long lists of names are cut.
         if !text.contains(name.as_str()) && name.len() < 30 {
-            return Err(Error::value("loads_counted", text, format!("lacks {name:?}")));
+            return Err(rejected("loads_counted", text, format!("lacks {name:?}")));
         }
         if file::to_toml(&self.with).is_ok() {
             return Err(Error::value("to_toml", "a file", "a source of a program has no file"));
@@ -875,12 +805,7 @@ impl<'a> Case<'a> {
         });
         for (found, expected) in [force, torque].into_iter().zip(largest) {
             let found = found.map_or(0.0, |largest| largest.peak);
-            same(
-                "explain",
-                found.into(),
-                expected.into(),
-                1e-6 * expected + self.slack(rpm, false),
-            )?;
+            same("explain", found, expected, 1e-6 * expected + self.slack(rpm, false))?;
         }
         Ok(())
     }

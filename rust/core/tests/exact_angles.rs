@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crankpin_core::exact::closed_form::closed_form;
-use crankpin_core::exact::vanishing::{Verdict, vanishing};
+use crankpin_core::exact::vanishing::{ProofQuantity, Verdict, vanishing};
 use crankpin_core::layout::{Numbering, Side, Spacing, Vee};
 use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Order, Station};
 
@@ -60,9 +60,9 @@ fn a_v6_with_six_decimals_is_decided() {
     assert!(found.obstacles.is_empty(), "{:?}", found.obstacles);
     // Even spacing in each bank: no force below order 6 but for the third's own absence.
     for of_order in &found.verdicts[..4] {
-        assert_eq!(of_order[..4], [Verdict::Vanishes; 4]);
+        assert_eq!((**of_order)[..4], [Verdict::Vanishes; 4]);
     }
-    assert_eq!(found.verdicts[4][2], Verdict::Remains);
+    assert_eq!(found.verdicts[4][ProofQuantity::ForceForward], Verdict::Remains);
 }
 
 /// N = 37 380 = 4·3·5·7·89: `Φ_N` has thousands of coefficients other than 0.

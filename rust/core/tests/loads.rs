@@ -8,7 +8,7 @@ use common::random::{angles, engines, stations, vees, weighted};
 use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, whole, xy};
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::engine::CrankIndex;
-use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
+use crankpin_core::exact::vanishing::{ProofQuantity as Sum, Verdict, vanishing};
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::wrench::{Torque, Wrench};
@@ -344,10 +344,9 @@ proptest! {
         }
         if centred {
             let found = vanishing(&balanced, &[Order::FIRST], None, None, &Cancel::new()).unwrap();
-            for (sum, verdict) in QUANTITIES.into_iter().zip(found.verdicts[0]) {
-                if [Sum::ForceForward, Sum::MomentForward].contains(&sum) {
-                    prop_assert_eq!(verdict, Verdict::Vanishes, "{:?} {:?}", sum, found.obstacles);
-                }
+            for sum in [Sum::ForceForward, Sum::MomentForward] {
+                let verdict = found.verdicts[0][sum];
+                prop_assert_eq!(verdict, Verdict::Vanishes, "{:?} {:?}", sum, found.obstacles);
             }
         }
     }
@@ -548,9 +547,8 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
     let engine = with([0.1, 0.0]);
     let found = of(&engine);
     assert_eq!(turning(&found, Vector::Force)[0], [Complex64::default(); 2]);
-    let verdicts =
-        vanishing(&engine, &[Order::FIRST], None, None, &Cancel::new()).unwrap().verdicts[0];
-    assert_eq!(verdicts[..8], [Verdict::Vanishes; 8]);
+    let proved = vanishing(&engine, &[Order::FIRST], None, None, &Cancel::new()).unwrap();
+    assert_eq!((*proved.verdicts[0])[..8], [Verdict::Vanishes; 8]);
     // Down at θ = 0, at x = 0.1: −0.1·U·ω² cos θ beside what the block has without.
     let roll = |balance: &Balance| balance.wrenches[0].torque.roll;
     let left = roll(&found) - roll(&of(&single));

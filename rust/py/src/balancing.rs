@@ -149,8 +149,16 @@ pub fn masses_on_pins(engine: &Engine) -> Vec<(f64, f64)> {
     card::pins(&engine.0).iter().map(|pin| (pin.rotating, pin.reciprocating)).collect()
 }
 
-/// Plane, amount, angle at which to add and to drill, mass at the radius and in heavy metal.
-type Correction = (usize, f64, f64, f64, Option<f64>, Option<f64>);
+/// Angles at which to add and to drill, mass at the radius and in heavy metal.
+#[derive(IntoPyObject)]
+struct Correction {
+    plane: usize,
+    amount: f64,
+    add_at_deg: f64,
+    drill_at_deg: f64,
+    mass: Option<f64>,
+    heavy_metal: Option<f64>,
+}
 
 /// Corrections in planes that balance a crankshaft to a factor.
 #[guarded]
@@ -170,9 +178,13 @@ pub fn corrections(
         let request = card::CorrectionRequest { planes, radii, oil, balanced_to };
         card::corrections(core, factor, &request, cancel)
     })?;
-    let row = |each: &card::Correction| {
-        let (add, drill) = (each.unbalance.angle.degrees(), each.drilled_at.degrees());
-        (each.plane, each.unbalance.amount, add, drill, each.mass, each.heavy_metal)
+    let row = |each: &card::Correction| Correction {
+        plane: each.plane,
+        amount: each.unbalance.amount,
+        add_at_deg: each.unbalance.angle.degrees(),
+        drill_at_deg: each.drilled_at.degrees(),
+        mass: each.mass,
+        heavy_metal: each.heavy_metal,
     };
     Ok(found.iter().map(row).collect())
 }

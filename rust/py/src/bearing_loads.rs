@@ -9,6 +9,7 @@ use crankpin_core::index::ListIndex;
 use crankpin_macros::guarded;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::convert::OrRaise;
 use crate::engine::{Engine, choice};
@@ -17,19 +18,6 @@ use crate::interrupt;
 /// An engine with main bearings at a speed.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct BearingLoadsModel(bearing_loads::BearingLoadsModel);
-
-/// Loads of crankpins, wrist pins and main bearings along x and y, side thrust, rod force, gas force.
-type Loads<'py> = (
-    Bound<'py, PyArray3<f64>>,
-    Bound<'py, PyArray3<f64>>,
-    Bound<'py, PyArray3<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-);
-
-/// Least and largest of each row of the same, and of each crankpin with all of its rods.
-type LoadExtremes<'py> = [Bound<'py, PyArray2<f64>>; 7];
 
 #[guarded]
 #[pymethods]
@@ -49,22 +37,23 @@ impl BearingLoadsModel {
         frozen(py, self.0.shares())
     }
 
+    /// Loads by name; those of bearings along x and y.
     fn loads<'py>(
         &self,
         py: Python<'py>,
         theta_deg: PyReadonlyArray1<'py, f64>,
-    ) -> PyResult<Loads<'py>> {
+    ) -> PyResult<Bound<'py, PyDict>> {
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.loads(thetas, cancel))?;
         let BearingLoads { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
-        Ok((
-            frozen(py, crankpin)?,
-            frozen(py, wrist_pin)?,
-            frozen(py, main)?,
-            frozen(py, side_thrust)?,
-            frozen(py, rod)?,
-            frozen(py, gas)?,
-        ))
+        let loads = PyDict::new(py);
+        for (name, rows) in [("crankpin", crankpin), ("wrist_pin", wrist_pin), ("main", main)] {
+            loads.set_item(name, frozen(py, rows)?)?;
+        }
+        for (name, rows) in [("side_thrust", side_thrust), ("rod_force", rod), ("gas_force", gas)] {
+            loads.set_item(name, frozen(py, rows)?)?;
+        }
+        Ok(loads)
     }
 
     /// Loads of the bearings of a name in axes that turn with the crank or the rod.
@@ -109,14 +98,24 @@ impl BearingLoadsModel {
         Ok((frozen(py, shear)?, frozen(py, bending)?))
     }
 
-    /// Least and largest loads over a cycle, degrees, as `loads` has them; magnitudes of vectors.
-    fn extremes<'py>(&self, py: Python<'py>, cycle_deg: u32) -> PyResult<LoadExtremes<'py>> {
+    /// Least and largest of each row of the same over a cycle, degrees, and of each crankpin with all of its
+    /// rods; magnitudes of vectors.
+    fn extremes<'py>(&self, py: Python<'py>, cycle_deg: u32) -> PyResult<Bound<'py, PyDict>> {
         let found = interrupt::run(py, |cancel| self.0.extremes(cycle_deg, cancel))?;
         let Extremes { crankpin, wrist_pin, main, side_thrust, rod, gas, whole_crankpin } = found;
-        let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|rows| frozen(py, rows));
-        let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|rows| frozen(py, rows));
-        let whole_crankpin = frozen(py, whole_crankpin)?;
-        Ok([crankpin?, wrist_pin?, main?, side_thrust?, rod?, gas?, whole_crankpin])
+        let extremes = PyDict::new(py);
+        for (name, rows) in [
+            ("crankpin", crankpin),
+            ("wrist_pin", wrist_pin),
+            ("main", main),
+            ("side_thrust", side_thrust),
+            ("rod_force", rod),
+            ("gas_force", gas),
+            ("whole_crankpin", whole_crankpin),
+        ] {
+            extremes.set_item(name, frozen(py, rows)?)?;
+        }
+        Ok(extremes)
     }
 
     /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.

@@ -11,12 +11,37 @@ use crate::engine::Engine;
 use crate::interrupt;
 
 type Fraction = (i128, i128);
-/// Weight, lever, sense of rotation (0 for a piston), direction and phase (parts of a turn).
-type Load = (Fraction, Fraction, i8, Fraction, Fraction);
+
+/// Of a piston the sense of rotation is 0; direction and phase are parts of a turn.
+#[derive(IntoPyObject)]
+struct Load {
+    weight: Fraction,
+    lever: Fraction,
+    sense: i8,
+    direction: Fraction,
+    phase: Fraction,
+}
+
 /// Coefficients of the real part, of the imaginary one and of the square of the size.
-type Coefficients = (Vec<i128>, Vec<i128>, Vec<i128>);
-/// Unit cylinder, spacing, whether aₙ is zero, loads, period, denominator, phasors, indices of periodic loads.
-type Form = (usize, f64, bool, Vec<Load>, i128, i128, Vec<Coefficients>, Vec<usize>);
+#[derive(IntoPyObject)]
+struct Coefficients {
+    real: Vec<i128>,
+    imaginary: Vec<i128>,
+    square: Vec<i128>,
+}
+
+/// Unit is the index of a cylinder, loads are those of periodic loads.
+#[derive(IntoPyObject)]
+pub struct Form {
+    unit: usize,
+    spacing: f64,
+    no_harmonic: bool,
+    parts: Vec<Load>,
+    period: i128,
+    denominator: i128,
+    phasors: Vec<Coefficients>,
+    loads: Vec<usize>,
+}
 
 /// Force or moment of one order.
 #[guarded]
@@ -41,18 +66,16 @@ pub fn closed_form(
         LoadMotion::Forward => 1,
         LoadMotion::Backward => -1,
     };
-    let load = |p: LoadPart| {
-        (ratio(p.weight), ratio(p.lever), sense(p.motion), turns(p.direction), turns(p.phase))
+    let load = |part: LoadPart| Load {
+        weight: ratio(part.weight),
+        lever: ratio(part.lever),
+        sense: sense(part.motion),
+        direction: turns(part.direction),
+        phase: turns(part.phase),
     };
-    let coefficients = |p: Phasor| (p.real, p.imaginary, p.square);
-    Ok((
-        unit,
-        spacing,
-        no_harmonic,
-        parts.into_iter().map(load).collect(),
-        period,
-        denominator,
-        phasors.into_iter().map(coefficients).collect(),
-        loads,
-    ))
+    let coefficients =
+        |Phasor { real, imaginary, square }: Phasor| Coefficients { real, imaginary, square };
+    let parts = parts.into_iter().map(load).collect();
+    let phasors = phasors.into_iter().map(coefficients).collect();
+    Ok(Form { unit, spacing, no_harmonic, parts, period, denominator, phasors, loads })
 }

@@ -10,9 +10,17 @@ use crate::convert::{OrderNumber, numbers};
 use crate::engine::Engine;
 use crate::interrupt;
 
-/// Kind, quantity, orders, values, reason, numbers of cylinders, whether proved.
-type Finding =
-    (&'static str, &'static str, Vec<OrderNumber>, Vec<f64>, &'static str, Vec<Vec<usize>>, bool);
+/// Groups are numbers of cylinders.
+#[derive(IntoPyObject)]
+struct Finding {
+    kind: &'static str,
+    quantity: &'static str,
+    orders: Vec<OrderNumber>,
+    values: Vec<f64>,
+    reason: &'static str,
+    groups: Vec<Vec<usize>>,
+    proved: bool,
+}
 
 /// An explanation of the core.
 #[pyclass(frozen, module = "crankpin._core")]
@@ -24,7 +32,7 @@ fn finding(Row { kind, vector, orders, values, reason, groups, proved }: Row) ->
         Some(Vector::Moment) => "moment",
         None => "",
     };
-    (kind, quantity, numbers(&orders), values, reason, groups, proved)
+    Finding { kind, quantity, orders: numbers(&orders), values, reason, groups, proved }
 }
 
 #[guarded]

@@ -13,9 +13,20 @@ use crate::interrupt;
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct CycleGrid(flywheel::CycleGrid);
 
-/// Arrays over the edges: speed, moving inertia, inertia torque; figures: inertia, irregularity, energy,
-/// mean torque, acceleration, lowest and highest speed, and the two approximations of the irregularity.
-type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 9]);
+/// Speed over a cycle, rad/s; arrays over the edges.
+#[derive(IntoPyObject)]
+struct Fluctuation<'py> {
+    speed: Bound<'py, PyArray1<f64>>,
+    moving_inertia: Bound<'py, PyArray1<f64>>,
+    inertia_torque: Bound<'py, PyArray1<f64>>,
+    inertia: f64,
+    irregularity: f64,
+    energy: f64,
+    mean_torque: f64,
+    acceleration: f64,
+    extremes: [f64; 2],
+    approximations: (f64, f64),
+}
 
 /// Mean moment of inertia over a turn of each cylinder's piston and rod as seen from the main crank, kg·m².
 #[guarded]
@@ -62,7 +73,7 @@ impl CycleGrid {
         rpm: f64,
         inertia: Option<f64>,
         irregularity: f64,
-    ) -> PyResult<Speed<'py>> {
+    ) -> PyResult<Fluctuation<'py>> {
         let evenness =
             inertia.map_or(FlywheelTarget::Irregularity(irregularity), FlywheelTarget::Inertia);
         let engine = engine.map(|engine| &*engine.get().0);
@@ -71,25 +82,17 @@ impl CycleGrid {
             let drive = CrankDrive { grid: &self.0, torque, load, engine, rpm };
             drive.speed(evenness, cancel)
         })?;
-        let [lowest, highest] = found.extremes;
-        let [gas_alone, with_inertia_torque] = found.approximations;
-        Ok((
-            [
-                frozen(py, found.speed.into())?,
-                frozen(py, found.moving_inertia.into())?,
-                frozen(py, found.inertia_torque.into())?,
-            ],
-            [
-                found.inertia,
-                found.irregularity,
-                found.energy,
-                found.mean_torque,
-                found.acceleration,
-                lowest,
-                highest,
-                gas_alone,
-                with_inertia_torque,
-            ],
-        ))
+        Ok(Fluctuation {
+            speed: frozen(py, found.speed.into())?,
+            moving_inertia: frozen(py, found.moving_inertia.into())?,
+            inertia_torque: frozen(py, found.inertia_torque.into())?,
+            inertia: found.inertia,
+            irregularity: found.irregularity,
+            energy: found.energy,
+            mean_torque: found.mean_torque,
+            acceleration: found.acceleration,
+            extremes: found.extremes,
+            approximations: found.approximations.into(),
+        })
     }
 }

@@ -7,6 +7,7 @@ use crankpin_core::{Cancel, Error, memory};
 use crankpin_macros::guarded;
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::convert::{Angle, OrRaise, Parts, angles, cylinder};
 use crate::engine::{Engine, choice, hold};
@@ -76,8 +77,15 @@ enum Listed {
     Shared(Vec<usize>),
 }
 
-/// Bank angle, phases of both banks in degrees, counterweight, second-order moments.
-type Solution = (f64, Vec<f64>, Vec<f64>, f64, (f64, f64));
+/// An arrangement at a bank angle, of phases in degrees.
+#[derive(IntoPyObject)]
+struct Solution<'py> {
+    bank_angle_deg: f64,
+    first_deg: Bound<'py, PyTuple>,
+    second_deg: Bound<'py, PyTuple>,
+    counterweight: f64,
+    second_order: (f64, f64),
+}
 
 #[guarded]
 #[pymethods]
@@ -117,19 +125,24 @@ impl BankAngles {
         frozen(py, degrees.into())
     }
 
-    fn solution(&self, py: Python<'_>, k: usize, by: &str) -> PyResult<Solution> {
+    fn solution<'py>(&self, py: Python<'py>, k: usize, by: &str) -> PyResult<Solution<'py>> {
         let measures =
             [("second_order", Criterion::SecondOrder), ("counterweight", Criterion::Counterweight)];
         let by = choice("by", by, &measures)?;
         let found = interrupt::run(py, |cancel| self.found(k, by, cancel))?;
-        let degrees = |phases: &[u32]| -> core::Result<Vec<f64>> {
+        let degrees = |phases: &[u32]| {
             let angle = |&p: &u32| core::Angle::from_turns(p.into(), found.parts.into());
-            phases.iter().map(|phase| angle(phase).map(core::Angle::degrees)).collect()
+            let angles = phases.iter().map(|phase| angle(phase).map(core::Angle::degrees));
+            PyTuple::new(py, angles.collect::<core::Result<Vec<_>>>().or_raise()?)
         };
-        let first = degrees(&found.banks[0]).or_raise()?;
-        let second = degrees(&found.banks[1]).or_raise()?;
-        let [about_x, about_y] = found.second_order;
-        Ok((found.bank_angle, first, second, found.counterweight, (about_x, about_y)))
+        let [first, second] = &found.banks;
+        Ok(Solution {
+            bank_angle_deg: found.bank_angle,
+            first_deg: degrees(first)?,
+            second_deg: degrees(second)?,
+            counterweight: found.counterweight,
+            second_order: found.second_order.into(),
+        })
     }
 }
 

@@ -97,11 +97,11 @@ pub fn vanishing(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let found = of(&engine, &orders, reference, None, &Cancel::new())?;
     let by_order = found.orders.iter().enumerate().map(|(k, &n)| {
         let mut entry = Map::from_iter([("order".to_owned(), order(n))]);
-        for (quantity, (verdict, rounded)) in
-            QUANTITIES.iter().zip(found.verdicts[k].iter().zip(found.within_rounding[k]))
-        {
-            let value = json!({ "verdict": word(*verdict), "within_rounding": rounded });
-            entry.insert(name(*quantity).to_owned(), value);
+        for quantity in QUANTITIES {
+            let (verdict, rounded) =
+                (found.verdicts[k][quantity], found.within_rounding[k][quantity]);
+            let value = json!({ "verdict": word(verdict), "within_rounding": rounded });
+            entry.insert(name(quantity).to_owned(), value);
         }
         Value::Object(entry)
     });

@@ -310,10 +310,7 @@ class ArrangementSearch(Tabled):
 
     def _least(self, index: int, by: str = _LISTED) -> Arrangement:
         """Return the arrangement at a bank angle of which this measure is least."""
-        angle, first, second, counterweight, second_order = self._angles.solution(index, by)
-        return Arrangement(
-            angle, tuple(first), tuple(second), counterweight, second_order, self.hold
-        )
+        return Arrangement(**self._angles.solution(index, by), hold=self.hold)
 
     def __iter__(self) -> Iterator[Arrangement]:
         return (self[k] for k in range(len(self)))

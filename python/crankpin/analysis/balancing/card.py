@@ -294,7 +294,7 @@ class Card(Tabled):
         rows: list[tuple[Any, ...]] = []
         for factor in self.factors:
             share = f"{100.0 * factor:.6g} %"
-            for plane, amount, adding, drilling, mass, slug in _core.corrections(
+            for each in _core.corrections(
                 core,
                 factor,
                 list(zip(places, cranks, strict=True)),
@@ -302,8 +302,9 @@ class Card(Tabled):
                 self.bob.oil,
                 self.balanced_to,
             ):
-                angles = (adding, drilling)
-                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * amount, *angles)
+                plane, mass, slug = each["plane"], each["mass"], each["heavy_metal"]
+                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * each["amount"])
+                row += (each["add_at_deg"], each["drill_at_deg"])
                 if radii is not None and mass is not None and slug is not None:
                     row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
                 rows.append(row)

@@ -20,7 +20,7 @@ use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::singular_values::SingularValues;
 use crate::readings::balance::Vector;
-use crate::readings::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing_of};
+use crate::readings::exact::vanishing::{ProofQuantity, Verdict, vanishing_of};
 use crate::readings::turning::on_cranks;
 
 /// A plane in which a crank can have weights.
@@ -317,15 +317,10 @@ fn turning_vanishes(
     z: f64,
     cancel: &Cancel,
 ) -> Result<bool> {
-    let quantity = match (vector, ratio.is_forward()) {
-        (Vector::Force, true) => ProofQuantity::ForceForward,
-        (Vector::Force, false) => ProofQuantity::ForceBackward,
-        (Vector::Moment, true) => ProofQuantity::MomentForward,
-        (Vector::Moment, false) => ProofQuantity::MomentBackward,
-    };
+    let [forward, backward] = ProofQuantity::senses(vector);
+    let quantity = if ratio.is_forward() { forward } else { backward };
     let found = vanishing_of(&[quantity], engine, &[Order::FIRST], Some(z), None, cancel)?;
-    let place = QUANTITIES.iter().position(|one| *one == quantity);
-    Ok(place.is_some_and(|place| found.verdicts[0][place] == Verdict::Vanishes))
+    Ok(found.verdict(Order::FIRST, quantity) == Some(Verdict::Vanishes))
 }
 
 /// The bays of the cranks whose order is the first, from front to flywheel.

@@ -26,8 +26,6 @@ const MOST_ORDERS: u32 = 384;
 const REST: f64 = 1e-12;
 /// Sums below this part of what was added are rounding.
 const FIGURE_ROUNDING: f64 = 1e-13;
-/// Speed, rpm, at which loads of inertia are those over ω².
-const ONE_RADIAN_PER_SECOND: f64 = 60.0 / std::f64::consts::TAU;
 /// Groups of parts: the right bank, the left one, and what stands still as the bank angle changes.
 pub const GROUPS: usize = 3;
 
@@ -66,7 +64,7 @@ fn speeds(engine: &Engine) -> Result<BTreeSet<Order>> {
 }
 
 fn request(torque: bool) -> Request {
-    Request { rpm: ONE_RADIAN_PER_SECOND, reference_z: None, torque }
+    Request { rpm: UNIT_RPM, reference_z: None, torque }
 }
 
 /// Whole orders up to one, those of shafts, and others.

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use num_traits::{CheckedAdd, CheckedMul};
 
+use self::vanishing::{ByQuantity, ProofQuantity, QUANTITIES};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Load, LoadIndex, Scene, SourceIndex};
@@ -24,7 +25,6 @@ use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal, product};
 use crate::readings::amplitude::SourceAmplitudes;
 use crate::source::ExactFactor;
-use crate::wrench::Wrench;
 
 fn too_long() -> Error {
     Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
@@ -148,9 +148,8 @@ impl Levers {
     }
 }
 
-/// In which directions of force and moment, along x and y, forward and backward, and whether in the torque, a
-/// load with numbers of its own acts: one that is no multiple of masses.
-pub(crate) struct NumberedLoads(Vec<[bool; 9]>);
+/// In which sums of each order a load with numbers of its own acts: one that is no multiple of masses.
+pub(crate) struct NumberedLoads(Vec<ByQuantity<bool>>);
 
 impl NumberedLoads {
     /// Of an engine at some orders.
@@ -160,7 +159,8 @@ impl NumberedLoads {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut acts = vec![[false; 9]; orders.len()];
+        let none = || QUANTITIES.iter().map(|_| false).collect::<ByQuantity<_>>();
+        let mut acts: Vec<_> = orders.iter().map(|_| none()).collect();
         if engine.loads().is_empty() {
             return Ok(Self(acts));
         }
@@ -170,15 +170,11 @@ impl NumberedLoads {
         for load in loads.list.iter().filter(is_numbered) {
             let wrenches = amplitudes.wrenches(&loads, &[*load], true, orders, cancel)?;
             for (acts, of_order) in acts.iter_mut().zip(wrenches.chunks(loads.groups.len())) {
-                for Wrench { force, moment, torque } in of_order {
-                    let planar = [force, moment].map(|vector| {
-                        let [x, y] = vector.xy(0.0);
-                        [x, y, vector.forward, vector.backward_conj]
-                    });
-                    let all = planar.as_flattened().iter().chain([&torque.roll]);
+                for wrench in of_order {
+                    let sums = ProofQuantity::of_wrench(wrench, |_| 0.0);
                     acts.iter_mut()
-                        .zip(all)
-                        .for_each(|(acts, one)| *acts |= *one != Complex64::ZERO);
+                        .zip(&sums)
+                        .for_each(|(acts, sum)| *acts |= *sum != Complex64::ZERO);
                 }
             }
         }

@@ -49,12 +49,13 @@ use crate::mechanism::exact::TorqueKey;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::index::List;
+use crate::numbers::index::{List, ListIndex};
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
 use crate::readings::quantity::Part;
 use crate::source::{ExactFactor, ForcePart, Source};
+use crate::wrench::Wrench;
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
@@ -112,17 +113,76 @@ pub const QUANTITIES: [ProofQuantity; 10] = [
     ProofQuantity::GasTorque,
 ];
 
+impl ListIndex for ProofQuantity {
+    fn new(position: usize) -> Self {
+        QUANTITIES[position]
+    }
+
+    fn position(self) -> usize {
+        self as usize
+    }
+}
+
+/// A value for each quantity.
+pub type ByQuantity<T> = List<ProofQuantity, T>;
+
+impl ProofQuantity {
+    /// Parts of a force or moment along (about) x and y.
+    pub(crate) fn components(vector: Vector) -> [Self; 2] {
+        match vector {
+            Vector::Force => [Self::ForceX, Self::ForceY],
+            Vector::Moment => [Self::MomentX, Self::MomentY],
+        }
+    }
+
+    /// Parts of a force or moment that turn with the crank and against it.
+    pub(crate) fn senses(vector: Vector) -> [Self; 2] {
+        match vector {
+            Vector::Force => [Self::ForceForward, Self::ForceBackward],
+            Vector::Moment => [Self::MomentForward, Self::MomentBackward],
+        }
+    }
+
+    /// The sums of a wrench, of which the parts of a vector along (about) x and y are rounding up to bounds;
+    /// nothing of gas.
+    pub(super) fn of_wrench(
+        wrench: &Wrench,
+        bound: impl Fn(Vector) -> f64,
+    ) -> ByQuantity<Complex64> {
+        let planar = |vector: Vector| {
+            let planar = vector.of(wrench);
+            let [x, y] = planar.xy(bound(vector));
+            [x, y, planar.forward, planar.backward_conj]
+        };
+        let [force, moment] = [Vector::Force, Vector::Moment].map(planar);
+        force.into_iter().chain(moment).chain([wrench.torque.roll, Complex64::ZERO]).collect()
+    }
+}
+
 /// What vanishes, order by order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vanishing {
     /// As asked for.
     pub orders: Vec<Order>,
-    /// One for each of [`QUANTITIES`], order by order.
-    pub verdicts: Vec<[Verdict; 10]>,
+    /// Of the sums of each order.
+    pub verdicts: Vec<ByQuantity<Verdict>>,
     /// Whether each is within the bound of rounding errors in floating point.
-    pub within_rounding: Vec<[bool; 10]>,
+    pub within_rounding: Vec<ByQuantity<bool>>,
     /// Why sums are undecided, where some are.
     pub obstacles: Vec<String>,
+}
+
+impl Vanishing {
+    /// The verdict on a sum of an order, if it is among [`Self::orders`].
+    #[must_use]
+    pub fn verdict(&self, order: Order, quantity: ProofQuantity) -> Option<Verdict> {
+        let place = self.orders.iter().position(|own| *own == order)?;
+        Some(self.verdicts[place][quantity])
+    }
+
+    fn has_undecided(&self, quantity: ProofQuantity) -> bool {
+        self.verdicts.iter().any(|verdicts| verdicts[quantity] == Verdict::Undecided)
+    }
 }
 
 impl Proof {
@@ -132,22 +192,22 @@ impl Proof {
         quantity: ProofQuantity,
         order: Order,
         cancel: &Cancel,
-    ) -> (Verdict, Option<Error>) {
+    ) -> Result<Verdict> {
         let torque = quantity == ProofQuantity::Torque;
         let views = [(false, torque), (true, torque), (false, false), (true, false)];
         let views = views.into_iter().take(if torque { 4 } else { 2 });
-        let mut obstacle = None;
+        let mut undecided = Ok(Verdict::Undecided);
         for view in views.map(|(parts, gears)| View { parts, gears }) {
             let decided = self
                 .terms(sums, quantity, order, view)
                 .and_then(|terms| self.decided(&terms, order, torque, view, cancel));
             match decided {
                 Ok(Verdict::Undecided) => {}
-                Ok(verdict) => return (verdict, None),
-                Err(error) => obstacle = Some(error),
+                Err(error) => undecided = Err(error),
+                decided => return decided,
             }
         }
-        (Verdict::Undecided, obstacle)
+        undecided
     }
 
     /// The verdict on Σ symbol · weight · root.
@@ -383,13 +443,14 @@ fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
 /// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
 /// #     ]",
 /// # )?;
-/// use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing};
+/// use crankpin_core::exact::vanishing::{ProofQuantity, Verdict, vanishing};
 /// use crankpin_core::{Cancel, Order};
 ///
 /// let found = vanishing(&four, &Order::all_whole(&[1, 2])?, None, None, &Cancel::new())?;
-/// let vertical = QUANTITIES.iter().position(|&each| each == ProofQuantity::ForceY);
-/// let of = |k: usize| vertical.map(|at| found.verdicts[k][at]);
-/// assert_eq!([of(0), of(1)], [Some(Verdict::Vanishes), Some(Verdict::Remains)]);
+/// let vertical = |n| Ok::<_, crankpin_core::Error>(found.verdict(Order::whole(n)?, ProofQuantity::ForceY));
+/// assert_eq!(vertical(1)?, Some(Verdict::Vanishes));
+/// assert_eq!(vertical(2)?, Some(Verdict::Remains));
+/// assert_eq!(vertical(3)?, None);
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```
 pub fn vanishing(
@@ -412,7 +473,6 @@ pub(crate) fn vanishing_of(
     cancel: &Cancel,
 ) -> Result<Vanishing> {
     check_list(orders)?;
-    let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::of(engine, reference_z, cancel)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
     if let (Some(half), None) = (half, firing)
@@ -422,85 +482,103 @@ pub(crate) fn vanishing_of(
     {
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
-    let gas = Stars::of_gas(engine, firing, cancel)?;
-    // Cycles of faster cranks begin at turns of their own, which nothing says.
-    let is_faster = |i| !engine.cranks()[engine.crank_of(i)].ratio.is_crank_speed();
-    let other_cycles = (0..engine.stations().len()).any(|i| engine.fires(i) && is_faster(i));
+    let gas = GasProof::new(engine, firing, cancel)?;
     let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
     let torque = torques.iter().any(|torque| quantities.contains(torque));
-    let (mut within_rounding, gas_remains) =
-        evaluated(engine, orders, reference_z, torque, cancel)?;
+    let (within_rounding, gas_remains) = evaluated(engine, orders, reference_z, torque, cancel)?;
     let numbered = NumberedLoads::new(engine, reference_z, orders, cancel)?;
-    let has_numbered = numbered.0.iter().flatten().any(|acts| *acts);
-    let mut verdicts = Vec::with_capacity(orders.len());
+    let mut found = Vanishing {
+        orders: orders.to_vec(),
+        verdicts: Vec::new(),
+        within_rounding,
+        obstacles: Vec::new(),
+    };
     let mut errors: Vec<String> = Vec::new();
-    let evaluated = within_rounding.iter_mut().zip(gas_remains);
-    for ((&order, numbered), (within, gas_remains)) in orders.iter().zip(&numbered.0).zip(evaluated)
-    {
+    let known = found.within_rounding.iter_mut().zip(gas_remains).zip(&numbered.0);
+    for (&order, ((within, gas_remains), numbered)) in orders.iter().zip(known) {
         // Neither gas nor half orders, which inertia has of shafts at half speed alone, need them.
         let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
         let has_order = order.as_whole().is_some() || proof.has_half_orders();
         let sums = if of_inertia && has_order { proof.sums(order) } else { SymbolSums::new() };
-        let mut of_order = [Verdict::Undecided; 10];
-        for (k, quantity) in QUANTITIES.into_iter().enumerate() {
-            if !quantities.contains(&quantity) {
-                continue;
-            }
+        let mut verdicts: ByQuantity<_> = QUANTITIES.iter().map(|_| Verdict::Undecided).collect();
+        for &quantity in quantities {
             cancel.check()?;
-            let (verdict, error) = match (quantity, order.as_whole()) {
-                (ProofQuantity::GasTorque, None) if strokes == Strokes::Two => {
-                    (Verdict::Vanishes, None)
-                }
-                (ProofQuantity::GasTorque, _) if other_cycles => {
-                    within[k] = false;
-                    (Verdict::Undecided, None)
-                }
-                (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
-                    |error| (Verdict::Undecided, Some(error)),
-                    |star| {
-                        let verdict = match star.verdict {
-                            Verdict::Undecided if gas_remains => Verdict::Remains,
-                            verdict => verdict,
-                        };
-                        // The sum of vectors is no torque where cylinders are unlike.
-                        within[k] = match verdict {
-                            Verdict::Vanishes => true,
-                            Verdict::Remains => false,
-                            Verdict::Undecided => star.sum == Complex64::default(),
-                        };
-                        (verdict, None)
-                    },
-                ),
+            let proved = match quantity {
+                ProofQuantity::GasTorque => gas.at(order, gas_remains),
                 // What was given is no rational, and cancels with nothing for certain.
-                _ if numbered[k.min(8)] => {
-                    within[k] = false;
-                    (Verdict::Undecided, None)
-                }
-                _ => proof.verdict(&sums, quantity, order, cancel),
+                _ if numbered[quantity] => Ok((Verdict::Undecided, Some(false))),
+                _ => proof.verdict(&sums, quantity, order, cancel).map(|verdict| (verdict, None)),
             };
-            of_order[k] = verdict;
-            if let Some(text) = error.map(|error| error.to_string())
-                && !errors.contains(&text)
-            {
-                errors.push(text);
+            match proved {
+                Ok((verdict, is_rounding)) => {
+                    verdicts[quantity] = verdict;
+                    within[quantity] = is_rounding.unwrap_or(within[quantity]);
+                }
+                Err(error) if errors.contains(&error.to_string()) => {}
+                Err(error) => errors.push(error.to_string()),
             }
         }
-        verdicts.push(of_order);
+        found.verdicts.push(verdicts);
     }
-    let undecided = verdicts.iter().flatten().any(|&v| v == Verdict::Undecided);
-    let mut obstacles = if undecided { proof.obstacles() } else { Vec::new() };
-    let gas_is_open = verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided);
-    if gas_is_open && other_cycles {
-        obstacles.push("gas on cranks of other speeds, whose cycles begin at no known turn".into());
-    } else if gas_is_open && gas.are_unlike() {
-        obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
+    if QUANTITIES.iter().any(|&quantity| found.has_undecided(quantity)) {
+        found.obstacles = proof.obstacles();
     }
-    if has_numbered {
-        obstacles
-            .push("loads that were given by numbers: they cancel with nothing for certain".into());
+    if found.has_undecided(ProofQuantity::GasTorque) {
+        found.obstacles.extend(gas.obstacle().map(String::from));
     }
-    obstacles.extend(errors);
-    Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })
+    if numbered.0.iter().flatten().any(|acts| *acts) {
+        let obstacle = "loads that were given by numbers: they cancel with nothing for certain";
+        found.obstacles.push(obstacle.into());
+    }
+    found.obstacles.extend(errors);
+    Ok(found)
+}
+
+/// What is known of the torque of gas of an engine that fires.
+struct GasProof {
+    stars: Stars,
+    strokes: Strokes,
+    /// Whether some fire on cranks of other speeds, whose cycles begin at turns that nothing says.
+    has_other_cycles: bool,
+}
+
+impl GasProof {
+    fn new(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
+        let is_faster = |i| !engine.cranks()[engine.crank_of(i)].ratio.is_crank_speed();
+        Ok(Self {
+            stars: Stars::of_gas(engine, firing, cancel)?,
+            strokes: firing.map_or(engine.strokes(), Firing::strokes),
+            has_other_cycles: (0..engine.stations().len()).any(|i| engine.fires(i) && is_faster(i)),
+        })
+    }
+
+    /// The verdict on an order, of which the value may be beyond any error; and whether it is zero within
+    /// rounding, where another sum than that of cylinders that are alike says so.
+    fn at(&self, order: Order, remains: bool) -> Result<(Verdict, Option<bool>)> {
+        if order.as_whole().is_none() && self.strokes == Strokes::Two {
+            return Ok((Verdict::Vanishes, None));
+        }
+        if self.has_other_cycles {
+            return Ok((Verdict::Undecided, Some(false)));
+        }
+        let star = self.stars.at(order)?;
+        Ok(match star.verdict {
+            Verdict::Vanishes => (Verdict::Vanishes, Some(true)),
+            // The sum of vectors is no torque where cylinders are unlike.
+            Verdict::Undecided if !remains => {
+                (Verdict::Undecided, Some(star.sum == Complex64::ZERO))
+            }
+            Verdict::Remains | Verdict::Undecided => (Verdict::Remains, Some(false)),
+        })
+    }
+
+    /// Why it may be undecided.
+    fn obstacle(&self) -> Option<&'static str> {
+        let unlike = "cylinders of different dimensions, whose gas torques have no ratio";
+        let other_cycles = "gas on cranks of other speeds, whose cycles begin at no known turn";
+        let unlike = self.stars.are_unlike().then_some(unlike);
+        if self.has_other_cycles { Some(other_cycles) } else { unlike }
+    }
 }
 
 /// Proofs of an engine's sums, about the plane midway between its first and last cylinder, one by one as they
@@ -518,19 +596,15 @@ impl<'a> ZeroProofs<'a> {
     }
 
     /// Whether these sums of forces, moments and torques of inertia are proved to vanish at an order.
-    pub fn vanish(
-        &self,
-        mut quantities: impl Iterator<Item = ProofQuantity>,
-        order: Order,
-    ) -> Result<bool> {
+    pub fn vanish(&self, quantities: &[ProofQuantity], order: Order) -> Result<bool> {
         let numbered = NumberedLoads::new(self.engine, None, &[order], self.cancel)?;
         let sums = self.proof.sums(order);
-        let vanishes = |quantity| {
-            let (verdict, _) = self.proof.verdict(&sums, quantity, order, self.cancel);
-            !numbered.0[0][quantity as usize] && verdict == Verdict::Vanishes
+        let vanishes = |&quantity: &ProofQuantity| {
+            let verdict = self.proof.verdict(&sums, quantity, order, self.cancel);
+            !numbered.0[0][quantity] && verdict == Ok(Verdict::Vanishes)
         };
         self.cancel.check()?;
-        Ok(quantities.all(vanishes))
+        Ok(quantities.iter().all(vanishes))
     }
 }
 
@@ -542,7 +616,7 @@ fn evaluated(
     reference_z: Option<f64>,
     torque: bool,
     cancel: &Cancel,
-) -> Result<(Vec<[bool; 10]>, Vec<bool>)> {
+) -> Result<(Vec<ByQuantity<bool>>, Vec<bool>)> {
     let request = Request { rpm: 60.0, reference_z, torque };
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
@@ -554,18 +628,13 @@ fn evaluated(
     let torque = |source: &dyn Source| source.scale().torque.unwrap_or(0.0);
     let largest: f64 = of_cycles.map(|(weight, source)| weight.size * torque(&**source)).sum();
     let zero = |k: usize| {
-        let of = |vector: Vector| {
-            let [x, y] = found.xy(vector, k);
-            let planar = found.planar(vector, k);
-            [x, y, planar.forward, planar.backward_conj].map(|part| part == Complex64::default())
-        };
-        let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
-        let torque = found.torque(Part::INERTIA, k).roll == Complex64::default();
-        [a, b, c, d, e, f, g, h, torque, true]
+        let bound = |vector| found.zero_bound(vector, k);
+        let sums = ProofQuantity::of_wrench(&found.wrenches[k], bound);
+        sums.map_to(|sum| *sum == Complex64::ZERO)
     };
     let orders = 0..found.orders.len();
-    let gas = orders.map(|k| all.torque(Part::GAS, k).roll.norm() > EVALUATED * largest);
-    Ok(((0..found.orders.len()).map(zero).collect(), gas.collect()))
+    let gas = |k| all.torque(Part::GAS, k).roll.norm() > EVALUATED * largest;
+    Ok((orders.clone().map(zero).collect(), orders.map(gas).collect()))
 }
 
 #[cfg(test)]

@@ -24,9 +24,7 @@ use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{
     Balance, Orders, Request, UNIT_RPM, Vector, angular_speed, balance,
 };
-use crate::readings::exact::vanishing::{
-    ProofQuantity, QUANTITIES, Verdict, ZeroProofs, vanishing_of,
-};
+use crate::readings::exact::vanishing::{ProofQuantity, Verdict, ZeroProofs, vanishing_of};
 use crate::readings::quantity;
 use crate::readings::terms::terms;
 use crate::readings::turning::{RollOfAxes, roll_of_axes};
@@ -284,9 +282,9 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Vec<Finding>> {
     }
     let in_two_turns = 4 * order.len() as u32 / engine.strokes().number();
     let orders = (1..=in_two_turns).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
-    let gas = [ProofQuantity::GasTorque];
-    let proofs = vanishing_of(&gas, engine, &orders, None, Some(&fires), cancel)?.verdicts;
-    let gas = proofs.iter().map(|verdicts| verdicts[QUANTITIES.len() - 1]);
+    let gas = ProofQuantity::GasTorque;
+    let proofs = vanishing_of(&[gas], engine, &orders, None, Some(&fires), cancel)?.verdicts;
+    let gas = proofs.iter().map(|verdicts| verdicts[gas]);
     if gas.clone().any(|verdict| verdict == Verdict::Undecided) {
         return Ok(found);
     }

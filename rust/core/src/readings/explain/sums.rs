@@ -8,7 +8,7 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::readings::balance::{Balance, Vector};
-use crate::readings::exact::vanishing::{QUANTITIES, ZeroProofs};
+use crate::readings::exact::vanishing::{ProofQuantity, ZeroProofs};
 use crate::readings::turning::cranks_by_sense;
 use crate::wrench::{Planar, tilt_deg};
 
@@ -128,13 +128,6 @@ impl<'a> VectorSums<'a> {
         made > SMALLEST_MENTIONED * self.size
     }
 
-    /// Whether the sums of an order at these places, of those along x, along y, forward and backward, are proved
-    /// to vanish.
-    fn vanish(&self, k: usize, places: impl Iterator<Item = usize>) -> Result<bool> {
-        let first = if self.vector == Vector::Force { 0 } else { 4 };
-        self.proofs.vanish(places.map(|place| QUANTITIES[first + place]), self.orders[k])
-    }
-
     /// What counterweights and shafts do.
     pub fn of_hardware(&self) -> Result<Vec<Finding>> {
         (0..self.orders.len()).filter_map(|k| self.hardware_of(k).transpose()).collect()
@@ -156,10 +149,10 @@ impl<'a> VectorSums<'a> {
         let without = [0, 1].map(|sense| self.whole[k][sense] - all[sense]);
         let before = sizes(without).map(|part| if part <= least { 0.0 } else { part });
         let after = sizes(self.whole[k]);
-        let gone = (0..2).filter(|&sense| before[sense] != 0.0 && after[sense] == 0.0);
-        let proved =
-            gone.clone().next().is_some() && self.vanish(k, gone.map(|sense| 2 + sense))?;
         let (vector, order) = (self.vector, self.orders[k]);
+        let gone = (0..2).filter(|&sense| before[sense] != 0.0 && after[sense] == 0.0);
+        let gone: Vec<_> = gone.map(|sense| ProofQuantity::senses(vector)[sense]).collect();
+        let proved = !gone.is_empty() && self.proofs.vanish(&gone, order)?;
         Ok(Some(Finding::Hardware { vector, order, before, after, acting, proved }))
     }
 
@@ -242,7 +235,8 @@ impl<'a> VectorSums<'a> {
                 continue;
             }
             let (why, groups) = self.reason(k, banks);
-            let is_proved = self.vanish(k, 0..2)?;
+            let both = ProofQuantity::components(self.vector);
+            let is_proved = self.proofs.vanish(&both, self.orders[k])?;
             let same = found.iter_mut().find_map(|finding| match finding {
                 Finding::Cancels { orders, reason, pairs, proved, .. } => {
                     (*reason == why && *pairs == groups && *proved == is_proved).then_some(orders)
