@@ -40,6 +40,7 @@ __all__ = [
     "Tolerances",
     "__version__",
     "absolute_warnings",
+    "actuator_phasors",
     "angular_speed",
     "appearing",
     "arrangement",
@@ -588,6 +589,10 @@ class Objectives:
     def smoothed(
         self, x: Sequence[float], mu: float, objectives: int
     ) -> tuple[float, list[float]]: ...
+
+def actuator_phasors(
+    target: _Complex, effect: _Complex, bounds: _Real, effort: float, widths: Sequence[int] | None
+) -> _Complex: ...
 
 @final
 class MountObjectives:

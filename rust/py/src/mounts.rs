@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::array::frozen;
 use crankpin_core as core;
+use crankpin_core::balancing::phasors::{self, PhasorRequest};
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
 use crankpin_core::mount_objectives::{self, MountObjective, MountVariable};
@@ -16,7 +17,7 @@ use crankpin_core::peaks::largest_vectors;
 use crankpin_core::{Complex64, memory};
 use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::balance;
@@ -635,6 +636,25 @@ impl Response {
         let rows = interrupt::run(py, |cancel| self.core.power(cancel))?;
         self.shaped(py, rows.concat(), &[2 + self.mounts])
     }
+}
+
+/// Phasors of actuators within bounds that leave the least at receivers, (`n_points`, `n_actuators`), of
+/// what is there without them, (`n_points`, `n_rows`), and of a unit of each, (`n_points`, `n_rows`, `n_actuators`).
+#[guarded]
+#[pyfunction]
+pub fn actuator_phasors<'py>(
+    py: Python<'py>,
+    target: PyReadonlyArray2<'_, Complex64>,
+    effect: PyReadonlyArray3<'_, Complex64>,
+    bounds: PyReadonlyArray2<'_, f64>,
+    effort: f64,
+    widths: Option<Vec<usize>>,
+) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    let (target, effect, shape) = (target.as_slice()?, effect.as_slice()?, bounds.as_array().dim());
+    let (bounds, widths) = (bounds.as_slice()?, widths.as_deref());
+    let request = PhasorRequest { target, effect, bounds, actuators: shape.1, effort, widths };
+    let found = interrupt::run(py, |cancel| phasors::least(&request, cancel))?;
+    frozen(py, memory::array("actuators", shape, found).or_raise()?)
 }
 
 /// Objectives of an engine on mounts that vary.

@@ -10,6 +10,7 @@ pub mod card;
 pub mod counterweights;
 mod discs;
 mod least_squares;
+pub mod phasors;
 pub mod shafts;
 pub mod weights;
 
