@@ -29,6 +29,7 @@ __all__ = [
     "Explanation",
     "Firing",
     "FirstOrder",
+    "InertialActuator",
     "InputError",
     "MeasuredParts",
     "MountObjectives",
@@ -593,6 +594,22 @@ class Objectives:
 def actuator_phasors(
     target: _Complex, effect: _Complex, bounds: _Real, effort: float, widths: Sequence[int] | None
 ) -> _Complex: ...
+
+@final
+class InertialActuator:
+    def __new__(
+        cls,
+        at: Sequence[float],
+        direction: Sequence[float],
+        mass: float,
+        resonance: float,
+        damping_ratio: float,
+    ) -> InertialActuator: ...
+    def mobility(self, powertrain: Powertrain, frequency: _Real) -> _Complex: ...
+    def margin(
+        self, powertrain: Powertrain, frequency: _Real, mobility: _Complex
+    ) -> tuple[float, float | None]: ...
+    def undamped(self, powertrain: Powertrain, frequency: float) -> float | None: ...
 
 @final
 class MountObjectives:

@@ -638,6 +638,59 @@ impl Response {
     }
 }
 
+/// An actuator whose motor pushes against a mass on a spring.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct InertialActuator(mounts::InertialActuator);
+
+#[guarded]
+#[pymethods]
+impl InertialActuator {
+    #[new]
+    fn new(
+        at: [f64; 3],
+        direction: [f64; 3],
+        mass: f64,
+        resonance: f64,
+        damping_ratio: f64,
+    ) -> Self {
+        Self(mounts::InertialActuator { at, direction, mass, resonance, damping_ratio })
+    }
+
+    /// Velocity of the powertrain at its place, of 1 N of its motor, at frequencies, Hz.
+    fn mobility<'py>(
+        &self,
+        py: Python<'py>,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let (powertrain, frequency) = (&powertrain.get().0, frequency.as_slice()?);
+        let found = interrupt::run(py, |cancel| self.0.mobility(powertrain, frequency, cancel))?;
+        frozen(py, found.into())
+    }
+
+    /// The least gain at which roots reach the imaginary axis, and their frequency, Hz, of mobilities on a grid.
+    fn margin(
+        &self,
+        py: Python<'_>,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: PyReadonlyArray1<'_, f64>,
+        mobility: PyReadonlyArray1<'_, Complex64>,
+    ) -> PyResult<(f64, Option<f64>)> {
+        let grid = (frequency.as_slice()?, mobility.as_slice()?);
+        let powertrain = &powertrain.get().0;
+        interrupt::run(py, |cancel| self.0.margin(powertrain, grid, cancel))
+    }
+
+    /// Frequency of the lowest mode that nothing damps and the motor drives, Hz, with stiffness at a frequency.
+    fn undamped(
+        &self,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: f64,
+    ) -> PyResult<Option<f64>> {
+        self.0.undamped(&powertrain.get().0, frequency).or_raise()
+    }
+}
+
 /// Phasors of actuators within bounds that leave the least at receivers, (`n_points`, `n_actuators`), of
 /// what is there without them, (`n_points`, `n_rows`), and of a unit of each, (`n_points`, `n_rows`, `n_actuators`).
 #[guarded]

@@ -100,7 +100,7 @@ impl<'a> Point<'a> {
         let mut found: DVector<f64> = found.column_mut(0).into_owned();
         let is_over = |(k, bound): (usize, &f64)| found.fixed_rows::<2>(2 * k).norm() > *bound;
         if self.bounds.iter().enumerate().any(is_over) {
-            found = bounded(&effect, &target, &[all], self.bounds, DVector::zeros(found.len()));
+            found = bounded(&effect, &target, &[all], self.bounds, &DVector::zeros(found.len()));
         }
         if let Some(widths) = request.widths {
             let ends = widths.iter().scan(0, |end, width| {
@@ -109,7 +109,7 @@ impl<'a> Point<'a> {
                 Some(first..*end)
             });
             let groups: Vec<Range<usize>> = ends.collect();
-            let other = bounded(&effect, &target, &groups, self.bounds, &found * 0.9);
+            let other = bounded(&effect, &target, &groups, self.bounds, &(&found * 0.9));
             let largest = |of: &DVector<f64>| {
                 let left = &effect * of + &target;
                 groups.iter().map(|of| left.rows_range(of.clone()).norm()).fold(0.0, f64::max)
@@ -139,7 +139,7 @@ fn bounded(
     target: &DVector<f64>,
     groups: &[Range<usize>],
     bounds: &[f64],
-    start: DVector<f64>,
+    start: &DVector<f64>,
 ) -> DVector<f64> {
     let (size, count) = (target.amax(), start.len());
     // In units of the bounds, or of what an actuator alone needs: targets are 1.
