@@ -19,6 +19,7 @@ __all__ = [
     "LONGEST_FILE",
     "MOST_CYLINDERS",
     "SMALLEST",
+    "AdaptiveLaw",
     "Balance",
     "BankAngles",
     "BearingLoadsModel",
@@ -590,6 +591,15 @@ class Objectives:
     def smoothed(
         self, x: Sequence[float], mu: float, objectives: int
     ) -> tuple[float, list[float]]: ...
+
+@final
+class AdaptiveLaw:
+    def __new__(
+        cls, effect: _Complex, error_deg: _Real, step: float, update_delay: int
+    ) -> AdaptiveLaw: ...
+    def largest_steps(self) -> _Real: ...
+    def rates(self) -> _Real: ...
+    def residuals(self, target: _Complex, updates: int) -> _Real: ...
 
 def actuator_phasors(
     target: _Complex, effect: _Complex, bounds: _Real, effort: float, widths: Sequence[int] | None

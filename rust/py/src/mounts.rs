@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::array::frozen;
 use crankpin_core as core;
+use crankpin_core::balancing::adaptive;
 use crankpin_core::balancing::phasors::{self, PhasorRequest};
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
@@ -708,6 +709,59 @@ pub fn actuator_phasors<'py>(
     let request = PhasorRequest { target, effect, bounds, actuators: shape.1, effort, widths };
     let found = interrupt::run(py, |cancel| phasors::least(&request, cancel))?;
     frozen(py, memory::array("actuators", shape, found).or_raise()?)
+}
+
+/// A law that adapts actuators' phasors to what receivers measure, at some points.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct AdaptiveLaw {
+    core: adaptive::AdaptiveLaw,
+    largest_steps: Vec<f64>,
+}
+
+#[guarded]
+#[pymethods]
+impl AdaptiveLaw {
+    /// Of what a unit of each actuator does, (`n_points`, `n_rows`, `n_actuators`), and errors of the model's phase.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        effect: PyReadonlyArray3<'_, Complex64>,
+        error_deg: PyReadonlyArray1<'_, f64>,
+        step: f64,
+        update_delay: usize,
+    ) -> PyResult<Self> {
+        let (.., actuators) = effect.as_array().dim();
+        let (effect, errors) = (effect.as_slice()?, error_deg.as_slice()?);
+        let largest_steps =
+            errors.iter().map(|&error| adaptive::largest_step(error, update_delay)).collect();
+        let core = interrupt::run(py, |cancel| {
+            adaptive::AdaptiveLaw::new(effect, actuators, errors, step, update_delay, cancel)
+        })?;
+        Ok(Self { core, largest_steps })
+    }
+
+    /// Step from which on it diverges at each point.
+    fn largest_steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        frozen(py, self.largest_steps.clone().into())
+    }
+
+    /// Attenuation of the slowest part at each point, dB per update.
+    fn rates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        frozen(py, interrupt::run(py, |cancel| self.core.rates(cancel))?.into())
+    }
+
+    /// What is left after each update, over what there was: (`n_points`, `updates` + 1).
+    fn residuals<'py>(
+        &self,
+        py: Python<'py>,
+        target: PyReadonlyArray2<'_, Complex64>,
+        updates: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (target, shape) = (target.as_slice()?, (self.largest_steps.len(), updates + 1));
+        interrupt::written(py, shape, None, |out, cancel| {
+            self.core.write_residuals(target, out, cancel)
+        })
+    }
 }
 
 /// Objectives of an engine on mounts that vary.

@@ -74,7 +74,7 @@ def optimal(
 ) -> np.ndarray:
     """Return the phasors of one point."""
     rows = (target[None].astype(complex), effect[None], bounds[None])
-    return _core.actuator_phasors(*rows, effort, widths)[0]
+    return np.asarray(_core.actuator_phasors(*rows, effort, widths)[0])
 
 
 # --- phasors --------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 //! scale with ω², so that one fit serves every speed. Forces are in kg·m here, moments and torques in
 //! kg·m²: over ω².
 
+pub mod adaptive;
 mod angle_lists;
 pub mod bob_weight;
 pub mod card;

@@ -62,7 +62,8 @@ pub fn least(request: &PhasorRequest, cancel: &Cancel) -> Result<Vec<Complex64>>
     let tasks = memory::collected(rows.zip(bounds.chunks(actuators)))?;
     let of_point = |((target, effect), bounds): ((&[Complex64], &[Complex64]), &[f64])| {
         cancel.check()?;
-        Ok(Point::new(target, effect, bounds).least(request))
+        let (effect, target) = (real_matrix(effect, actuators), real_column(target));
+        Ok(Point { effect, target, bounds }.least(request))
     };
     Ok(pool::map(cancel, tasks, of_point)?.concat())
 }
@@ -74,21 +75,26 @@ struct Point<'a> {
     bounds: &'a [f64],
 }
 
-impl<'a> Point<'a> {
-    fn new(target: &[Complex64], effect: &[Complex64], bounds: &'a [f64]) -> Self {
-        let number = |row: usize, column: usize| {
-            let value = effect[row / 2 * bounds.len() + column / 2];
-            match (row % 2, column % 2) {
-                (0, 0) | (1, 1) => value.re,
-                (0, _) => -value.im,
-                _ => value.im,
-            }
-        };
-        let effect = DMatrix::from_fn(2 * target.len(), 2 * bounds.len(), number);
-        let parts = target.iter().flat_map(|phasor| [phasor.re, phasor.im]);
-        Self { effect, target: DVector::from_iterator(2 * target.len(), parts), bounds }
-    }
+/// What units of actuators do at receivers, row by row, as a matrix of real numbers.
+pub(super) fn real_matrix(effect: &[Complex64], actuators: usize) -> DMatrix<f64> {
+    let number = |row: usize, column: usize| {
+        let value = effect[row / 2 * actuators + column / 2];
+        match (row % 2, column % 2) {
+            (0, 0) | (1, 1) => value.re,
+            (0, _) => -value.im,
+            _ => value.im,
+        }
+    };
+    DMatrix::from_fn(2 * effect.len() / actuators, 2 * actuators, number)
+}
 
+/// Phasors as a column of real numbers.
+pub(super) fn real_column(phasors: &[Complex64]) -> DVector<f64> {
+    let parts = phasors.iter().flat_map(|phasor| [phasor.re, phasor.im]);
+    DVector::from_iterator(2 * phasors.len(), parts)
+}
+
+impl Point<'_> {
     fn least(&self, request: &PhasorRequest) -> Vec<Complex64> {
         let values = SingularValues::of(&self.effect).values;
         let Some(largest) = values.first().filter(|_| self.target.amax() > 0.0) else {
