@@ -19,6 +19,7 @@ __all__ = [
     "LONGEST_FILE",
     "MOST_CYLINDERS",
     "SMALLEST",
+    "AdaptiveLaw",
     "Balance",
     "BankAngles",
     "BearingLoadsModel",
@@ -29,6 +30,7 @@ __all__ = [
     "Explanation",
     "Firing",
     "FirstOrder",
+    "InertialActuator",
     "InputError",
     "MeasuredParts",
     "MountObjectives",
@@ -40,6 +42,7 @@ __all__ = [
     "Tolerances",
     "__version__",
     "absolute_warnings",
+    "actuator_phasors",
     "angular_speed",
     "appearing",
     "arrangement",
@@ -588,6 +591,35 @@ class Objectives:
     def smoothed(
         self, x: Sequence[float], mu: float, objectives: int
     ) -> tuple[float, list[float]]: ...
+
+@final
+class AdaptiveLaw:
+    def __new__(
+        cls, effect: _Complex, error_deg: _Real, step: float, update_delay: int
+    ) -> AdaptiveLaw: ...
+    def largest_steps(self) -> _Real: ...
+    def rates(self) -> _Real: ...
+    def residuals(self, target: _Complex, updates: int) -> _Real: ...
+
+def actuator_phasors(
+    target: _Complex, effect: _Complex, bounds: _Real, effort: float, widths: Sequence[int] | None
+) -> _Complex: ...
+
+@final
+class InertialActuator:
+    def __new__(
+        cls,
+        at: Sequence[float],
+        direction: Sequence[float],
+        mass: float,
+        resonance: float,
+        damping_ratio: float,
+    ) -> InertialActuator: ...
+    def mobility(self, powertrain: Powertrain, frequency: _Real) -> _Complex: ...
+    def margin(
+        self, powertrain: Powertrain, frequency: _Real, mobility: _Complex
+    ) -> tuple[float, float | None]: ...
+    def undamped(self, powertrain: Powertrain, frequency: float) -> float | None: ...
 
 @final
 class MountObjectives:

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use crate::array::frozen;
 use crankpin_core as core;
+use crankpin_core::balancing::adaptive;
+use crankpin_core::balancing::phasors::{self, PhasorRequest};
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
 use crankpin_core::mount_objectives::{self, MountObjective, MountVariable};
@@ -16,7 +18,7 @@ use crankpin_core::peaks::largest_vectors;
 use crankpin_core::{Complex64, memory};
 use crankpin_macros::guarded;
 use ndarray::{Array1, Array2};
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::balance;
@@ -634,6 +636,131 @@ impl Response {
     fn power<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = interrupt::run(py, |cancel| self.core.power(cancel))?;
         self.shaped(py, rows.concat(), &[2 + self.mounts])
+    }
+}
+
+/// An actuator whose motor pushes against a mass on a spring.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct InertialActuator(mounts::InertialActuator);
+
+#[guarded]
+#[pymethods]
+impl InertialActuator {
+    #[new]
+    fn new(
+        at: [f64; 3],
+        direction: [f64; 3],
+        mass: f64,
+        resonance: f64,
+        damping_ratio: f64,
+    ) -> Self {
+        Self(mounts::InertialActuator { at, direction, mass, resonance, damping_ratio })
+    }
+
+    /// Velocity of the powertrain at its place, of 1 N of its motor, at frequencies, Hz.
+    fn mobility<'py>(
+        &self,
+        py: Python<'py>,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let (powertrain, frequency) = (&powertrain.get().0, frequency.as_slice()?);
+        let found = interrupt::run(py, |cancel| self.0.mobility(powertrain, frequency, cancel))?;
+        frozen(py, found.into())
+    }
+
+    /// The least gain at which roots reach the imaginary axis, and their frequency, Hz, of mobilities on a grid.
+    fn margin(
+        &self,
+        py: Python<'_>,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: PyReadonlyArray1<'_, f64>,
+        mobility: PyReadonlyArray1<'_, Complex64>,
+    ) -> PyResult<(f64, Option<f64>)> {
+        let grid = (frequency.as_slice()?, mobility.as_slice()?);
+        let powertrain = &powertrain.get().0;
+        interrupt::run(py, |cancel| self.0.margin(powertrain, grid, cancel))
+    }
+
+    /// Frequency of the lowest mode that nothing damps and the motor drives, Hz, with stiffness at a frequency.
+    fn undamped(
+        &self,
+        powertrain: &Bound<'_, Powertrain>,
+        frequency: f64,
+    ) -> PyResult<Option<f64>> {
+        self.0.undamped(&powertrain.get().0, frequency).or_raise()
+    }
+}
+
+/// Phasors of actuators within bounds that leave the least at receivers, (`n_points`, `n_actuators`), of
+/// what is there without them, (`n_points`, `n_rows`), and of a unit of each, (`n_points`, `n_rows`, `n_actuators`).
+#[guarded]
+#[pyfunction]
+pub fn actuator_phasors<'py>(
+    py: Python<'py>,
+    target: PyReadonlyArray2<'_, Complex64>,
+    effect: PyReadonlyArray3<'_, Complex64>,
+    bounds: PyReadonlyArray2<'_, f64>,
+    effort: f64,
+    widths: Option<Vec<usize>>,
+) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    let (target, effect, shape) = (target.as_slice()?, effect.as_slice()?, bounds.as_array().dim());
+    let (bounds, widths) = (bounds.as_slice()?, widths.as_deref());
+    let request = PhasorRequest { target, effect, bounds, actuators: shape.1, effort, widths };
+    let found = interrupt::run(py, |cancel| phasors::least(&request, cancel))?;
+    frozen(py, memory::array("actuators", shape, found).or_raise()?)
+}
+
+/// A law that adapts actuators' phasors to what receivers measure, at some points.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct AdaptiveLaw {
+    core: adaptive::AdaptiveLaw,
+    largest_steps: Vec<f64>,
+}
+
+#[guarded]
+#[pymethods]
+impl AdaptiveLaw {
+    /// Of what a unit of each actuator does, (`n_points`, `n_rows`, `n_actuators`), and errors of the model's phase.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        effect: PyReadonlyArray3<'_, Complex64>,
+        error_deg: PyReadonlyArray1<'_, f64>,
+        step: f64,
+        update_delay: usize,
+    ) -> PyResult<Self> {
+        let (.., actuators) = effect.as_array().dim();
+        let (effect, errors) = (effect.as_slice()?, error_deg.as_slice()?);
+        let largest_steps =
+            errors.iter().map(|&error| adaptive::largest_step(error, update_delay)).collect();
+        let core = interrupt::run(py, |cancel| {
+            adaptive::AdaptiveLaw::new(effect, actuators, errors, step, update_delay, cancel)
+        })?;
+        Ok(Self { core, largest_steps })
+    }
+
+    /// Step from which on it diverges at each point.
+    fn largest_steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        frozen(py, self.largest_steps.clone().into())
+    }
+
+    /// Attenuation of the slowest part at each point, dB per update.
+    fn rates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        frozen(py, interrupt::run(py, |cancel| self.core.rates(cancel))?.into())
+    }
+
+    /// What is left after each update, over what there was: (`n_points`, `updates` + 1).
+    fn residuals<'py>(
+        &self,
+        py: Python<'py>,
+        target: PyReadonlyArray2<'_, Complex64>,
+        updates: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (target, shape) = (target.as_slice()?, (self.largest_steps.len(), updates + 1));
+        interrupt::written(py, shape, None, |out, cancel| {
+            self.core.write_residuals(target, out, cancel)
+        })
     }
 }
 

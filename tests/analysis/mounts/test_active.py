@@ -10,7 +10,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.analysis.mounts.phasors import least_largest, optimal
+from crankpin import _core
 from rederivation import active as again
 from support import in_turn
 
@@ -65,6 +65,18 @@ def random_case(seed: int) -> tuple[cp.Powertrain, list[cp.Actuator], list[Any]]
     return cp.Powertrain(engine, body, mounts), actuators, points
 
 
+def optimal(
+    target: np.ndarray,
+    effect: np.ndarray,
+    bounds: np.ndarray,
+    effort: float = 0.0,
+    widths: list[int] | None = None,
+) -> np.ndarray:
+    """Return the phasors of one point."""
+    rows = (target[None].astype(complex), effect[None], bounds[None])
+    return np.asarray(_core.actuator_phasors(*rows, effort, widths)[0])
+
+
 # --- phasors --------------------------------------------------------------------------------------
 
 
@@ -105,7 +117,7 @@ def test_phasors_are_optimal_within_their_bounds(seed: int) -> None:
     if seed % 5 == 0:
         bounds[-1] *= 1e-6
     effort = (0.0, 1e-3)[seed % 2]
-    found = optimal(target[None].astype(complex), effect[None], bounds[None], effort)[0]
+    found = optimal(target, effect, bounds, effort)
     assert (np.abs(found) <= bounds * (1 + 1e-12)).all()
     weight = effort * float(np.linalg.norm(effect, 2)) ** 2
     # The central path ends 1e-12 from the least; the dual is near the best to its square root.
@@ -127,8 +139,8 @@ def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
     bounds = np.abs(free) * draw.uniform(0.3, 2.0, actuators)
     if seed % 3:
         bounds[:] = np.inf
-    start = optimal(target[None], effect[None], bounds[None], 0.0)
-    found = least_largest(target[None], effect[None], bounds[None], widths, start)[0]
+    start = optimal(target, effect, bounds)
+    found = optimal(target, effect, bounds, widths=widths)
     assert (np.abs(found) <= bounds * (1 + 1e-9)).all()
     groups = np.split(np.arange(rows), np.cumsum(widths)[:-1])
 
@@ -137,14 +149,13 @@ def test_the_largest_receiver_is_the_least_that_there_is(seed: int) -> None:
         return np.array([np.linalg.norm(left[group]) for group in groups])
 
     largest = sizes(found).max()
-    assert largest <= sizes(start[0]).max() * (1 + 1e-12)
+    assert largest <= sizes(start).max() * (1 + 1e-12)
     # No convex combination of squares is larger at its own least.
     weights = np.ones(len(groups)) / len(groups)
     least = 0.0
     for _ in range(400):
         root = np.sqrt(np.repeat(weights, widths))
-        weighted = optimal((root * target)[None], (root[:, None] * effect)[None], bounds[None], 0.0)
-        each = sizes(weighted[0])
+        each = sizes(optimal(root * target, root[:, None] * effect, bounds))
         least = max(least, float(np.sqrt((weights * each**2).sum())))
         weights = weights * each / (weights * each).sum()
     assert least <= largest * (1 + 1e-6)

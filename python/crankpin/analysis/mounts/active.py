@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.record import changed, computed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts.adaptive import MOST_UPDATE_DELAYS, AdaptiveLaw
-from crankpin.analysis.mounts.phasors import least_largest, optimal
 from crankpin.analysis.mounts.response import SUPPORT, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL
 from crankpin.model.actuators import Actuator
@@ -117,10 +117,13 @@ class Cancellation(Tabled):
         effect = np.stack(effects, axis=-1)
         bounds = np.stack([one.largest_force(self._frequency()) for one in self.actuators], -1)
         widths = [1 if direction else 3 for *_, direction in self.receivers]
-        rows = (target.reshape(points, -1), effect.reshape(points, -1, len(self.actuators)))
-        found = optimal(*rows, bounds.reshape(points, -1), self.effort)
-        if self.norm == "largest":
-            found = least_largest(*rows, bounds.reshape(points, -1), widths, found)
+        found = _core.actuator_phasors(
+            np.ascontiguousarray(target.reshape(points, -1)),
+            np.ascontiguousarray(effect.reshape(points, -1, len(self.actuators))),
+            np.ascontiguousarray(bounds.reshape(points, -1)),
+            self.effort,
+            widths if self.norm == "largest" else None,
+        )
         found = found.reshape(*shape, -1)
         error = (1.0 + self.amplitude_error) * np.exp(1j * np.radians(self.phase_error_deg))
         forces = np.zeros_like(found)

@@ -1,16 +1,13 @@
-"""Stability and convergence of a law that adapts actuators' phasors to what receivers measure.
-
-w ← w − μ·Ŝᴴe with e = d + S w. In the singular vectors of S its parts are each by itself: with an
-error φ of the model's phase, and D updates until one is measured, xₙ₊₁ = xₙ − a·e^{iφ}·xₙ₋D. Roots
-of z^D(z − 1) + a·e^{iφ} leave the unit circle at a = 2 sin((π/2 − |φ|)/(2D + 1)).
-"""
+"""Stability and convergence of a law that adapts actuators' phasors to what receivers measure."""
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
 from crankpin._support.record import read_only
@@ -71,11 +68,16 @@ class AdaptiveLaw(Tabled):
         error = self.phase_error_deg - 360.0 * self.frequency * self.delay
         return read_only(180.0 - np.mod(180.0 - error, 360.0))
 
+    @cached_property
+    def _law(self) -> _core.AdaptiveLaw:
+        effect, errors = self._effect(), self.error_deg.ravel()
+        points = np.ascontiguousarray(effect.reshape(-1, *effect.shape[-2:]))
+        return _core.AdaptiveLaw(points, errors, self.step, self.update_delay)
+
     @property
     def largest_step(self) -> NDArray[np.float64]:
         """Step from which on it diverges, 0 where any does: (…, n_orders)."""
-        left = np.maximum(QUARTER - np.abs(self.error_deg), 0.0)
-        return read_only(2.0 * np.sin(np.radians(left) / (2 * self.update_delay + 1)))
+        return np.reshape(self._law.largest_steps(), self.frequency.shape)
 
     @property
     def stable(self) -> NDArray[np.bool_]:
@@ -85,28 +87,7 @@ class AdaptiveLaw(Tabled):
     @property
     def rate(self) -> NDArray[np.float64]:
         """Attenuation of the slowest part, dB per update, below zero of growth: (…, n_orders)."""
-        sizes = self._sizes()
-        rate = np.full(sizes.shape[:-1], np.inf)
-        errors = np.exp(1j * np.radians(self.error_deg))
-        for place in np.ndindex(rate.shape):
-            for size in sizes[place]:
-                if size > 0.0:
-                    poly = np.zeros(self.update_delay + 2, dtype=complex)
-                    poly[:2] = 1.0, -1.0
-                    poly[-1] += self.step * size * errors[place]
-                    largest = np.abs(np.roots(poly)).max(initial=0.0)
-                    with np.errstate(divide="ignore"):  # at once
-                        rate[place] = min(rate[place], -20.0 * np.log10(largest))
-        return read_only(rate)
-
-    def _sizes(self) -> NDArray[np.float64]:
-        """Return squares of singular values over the largest: (…, n_orders, n)."""
-        values = np.linalg.svd(self._effect(), compute_uv=False) ** 2
-        first = values[..., :1]
-        sizes = np.zeros(values.shape)
-        np.divide(values, first, out=sizes, where=first > 0.0)
-        # What rounding leaves of none is no part.
-        return np.where(sizes > 1e-24, sizes, 0.0)
+        return np.reshape(self._law.rates(), self.frequency.shape)
 
     def _effect(self) -> NDArray[np.complex128]:
         effect = self.cancellation._effect
@@ -133,20 +114,9 @@ class AdaptiveLaw(Tabled):
         count = inputs.whole("updates", updates, 0, MOST_UPDATES)
         target = self.cancellation._target
         target = np.moveaxis(self._cancelled(np.moveaxis(target, -1, 0)), 0, -1)
-        left = np.linalg.svd(self._effect(), full_matrices=False)[0]
-        parts = np.abs((np.swapaxes(left.conj(), -1, -2) @ target[..., None])[..., 0]) ** 2
-        whole = (np.abs(target) ** 2).sum(axis=-1)
-        beyond = np.maximum(whole - parts.sum(axis=-1), 0.0)
-        factor = self.step * self._sizes() * np.exp(1j * np.radians(self.error_deg))[..., None]
-        history = np.empty((*whole.shape, count + 1))
-        late = [np.ones(factor.shape, dtype=complex)] * (self.update_delay + 1)
-        for n in range(count + 1):
-            rest = (parts * np.abs(late[-1]) ** 2).sum(axis=-1) + beyond
-            history[..., n] = rest
-            late = [*late[1:], late[-1] - factor * late[0]]
-        ratio = np.full(history.shape, np.nan)
-        np.divide(history, whole[..., None], out=ratio, where=whole[..., None] > 0.0)
-        return read_only(np.sqrt(ratio))
+        rows = np.ascontiguousarray(target.reshape(-1, target.shape[-1]))
+        found = self._law.residuals(rows, count)
+        return read_only(found.reshape(*target.shape[:-1], count + 1))
 
     @property
     def table(self) -> Table:

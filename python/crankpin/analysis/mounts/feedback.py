@@ -1,11 +1,4 @@
-"""Velocity of a powertrain fed back through an inertial actuator: the largest stable gain.
-
-A motor between the powertrain and a sprung mass pushes with −g·v on the one and +g·v on the other.
-With the receptance h at its place, κ the spring and damper of the mass m, the velocity of 1 N of
-the motor is T = iωh/(1 − κ/(mω²) + κh). Where every mode that the motor drives is damped, all is
-stable without gain, and roots reach the imaginary axis first at the least g = −1/T where T is real
-and below zero (Nyquist). Where one is not, it starts on that axis and the limit is no such point.
-"""
+"""Velocity of a powertrain fed back through an inertial actuator: the largest stable gain."""
 
 from __future__ import annotations
 
@@ -13,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs, units
 from crankpin._support.frames import Tabled
 from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.mounts.active import DrivenResponse
-from crankpin.analysis.request import Request
 from crankpin.model.actuators import Actuator
 
 if TYPE_CHECKING:
@@ -33,14 +25,8 @@ POINTS = 2000
 """Frequencies over that range, evenly on a logarithmic scale."""
 BESIDE = np.geomspace(1e-6, 0.3, 60)
 """Distances from each mode, over its frequency, at which more are taken."""
-HALVINGS = 60
-"""Halvings of a bracket: to the last digit."""
 ROUNDING = 1e-12
 """Share by which the ends of a table are left, for rounding of angular speeds."""
-UNDAMPED = 1e-12
-"""Loss factor below which it is rounding, and the mode is undamped."""
-UNMOVED = 1e-9
-"""Motion of the actuator's place in a mode, over that of the free body, below which it is none."""
 
 
 class VelocityFeedback(Tabled):
@@ -72,7 +58,14 @@ class VelocityFeedback(Tabled):
         resonance = float(self.actuator.resonance or 0.0)
         at = float(np.clip(resonance, low, high))
         modes = self.powertrain.modes(at if self.powertrain._varies else None)
-        self._require_damping(at)
+        actuator = self._actuator
+        undamped = actuator.undamped(self.powertrain._core, at)
+        if undamped is not None:
+            hint = (
+                "a limit of gain is that of a powertrain and actuator that are stable without: "
+                "give mounts a loss_factor or damping, and the actuator a damping_ratio"
+            )
+            raise inputs.faulty("nothing", f"damps the mode at {undamped:.5g} Hz", hint)
         own = [*modes.frequency[modes.frequency > 0.0].tolist(), resonance]
         grid = np.geomspace(min(own) / REACH, max(own) * REACH, POINTS)
         beside = np.multiply.outer(own, np.concatenate([1.0 - BESIDE, 1.0 + BESIDE]))
@@ -82,7 +75,7 @@ class VelocityFeedback(Tabled):
         if not grid.size:
             raise self._beyond(low, high)
         mobility = self._mobility(grid)
-        largest, onset = self._margin(grid, mobility)
+        largest, onset = actuator.margin(self.powertrain._core, grid, mobility)
         if is_cut and onset is None:
             raise self._beyond(low, high)
         known = [f for f in own[:-1] if low <= f <= high]
@@ -111,71 +104,15 @@ class VelocityFeedback(Tabled):
         )
         return inputs.faulty("tables of stiffness", f"have {low:g} to {high:g} Hz in common", hint)
 
-    def _require_damping(self, frequency: float) -> None:
-        """Reject an undamped mode of powertrain and actuator that the motor drives."""
-        one, powertrain = self.actuator, self.powertrain
-        mass, stiffness = powertrain._core.matrices(frequency)
-        count = len(mass)
-        place = np.zeros(count + 1)
-        arm = np.subtract(one.at, powertrain.body.cg)
-        place[:6] = *one.direction, *np.cross(arm, one.direction)
-        stretched = place.copy()
-        stretched[count] = -1.0
-        moving, omega = float(one.mass or 0.0), 2.0 * np.pi * float(one.resonance or 0.0)
-        elastic, damping = (moving * omega**2 * np.outer(stretched, stretched) for _ in "12")
-        elastic[:count, :count] += stiffness.real
-        damping *= 2.0 * one.damping_ratio * frequency * 2.0 * np.pi / omega
-        damping[:count, :count] += stiffness.imag
-        masses = np.diag(np.full(count + 1, moving))
-        masses[:count, :count] = mass
-        unit = np.linalg.inv(np.linalg.cholesky(masses)).T
-        squares, turns = np.linalg.eigh(unit.T @ elastic @ unit)
-        reach = float(np.linalg.norm(unit.T @ place))
-        for square in squares[squares > UNDAMPED * squares[-1]]:
-            # Of modes of one frequency any mixture is a mode.
-            shapes = unit @ turns[:, np.abs(squares - square) <= UNMOVED * square]
-            losses, mixtures = np.linalg.eigh(shapes.T @ damping @ shapes)
-            free = shapes @ mixtures[:, losses <= UNDAMPED * square]
-            if np.abs(place @ free).max(initial=0.0) > UNMOVED * reach:
-                hint = (
-                    "a limit of gain is that of a powertrain and actuator that are stable without: "
-                    "give mounts a loss_factor or damping, and the actuator a damping_ratio"
-                )
-                what = f"damps the mode at {np.sqrt(square) / (2.0 * np.pi):.5g} Hz"
-                raise inputs.faulty("nothing", what, hint)
+    @property
+    def _actuator(self) -> _core.InertialActuator:
+        one = self.actuator
+        figures = (float(one.mass or 0.0), float(one.resonance or 0.0), one.damping_ratio)
+        return _core.InertialActuator(one.at, one.direction, *figures)
 
     def _mobility(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the velocity of 1 N of the motor, at frequencies."""
-        one = self.actuator
-        # Order 1 at as many turns a second.
-        request = Request.checked(orders=[1], rtol=None, spectrum=None, torque=True)
-        unit = np.ones((len(frequency), 1, 1), dtype=complex)
-        alone = DrivenResponse(
-            self.powertrain, 60.0 * frequency, request, (one,), unit, engine_runs=False
-        )
-        receptance = alone._vectors(("at", one.at, "powertrain", "displacement"))[:, 0] @ np.array(
-            one.direction
-        )
-        omega, share = 2.0 * np.pi * frequency, one._motor_share(frequency)
-        spring = float(one.mass or 0.0) * omega**2 * (1.0 - share)
-        return np.asarray(1j * omega * receptance / (share + spring * receptance))
-
-    def _margin(
-        self, grid: NDArray[np.float64], mobility: NDArray[np.complex128]
-    ) -> tuple[float, float | None]:
-        """Return the least gain at which roots reach the imaginary axis, and their frequency."""
-        turns = np.flatnonzero(np.signbit(mobility.imag[1:]) != np.signbit(mobility.imag[:-1]))
-        low, high, sign = grid[turns], grid[turns + 1], np.signbit(mobility.imag[turns])
-        for _ in range(HALVINGS if turns.size else 0):
-            middle = np.sqrt(low * high)
-            same = np.signbit(self._mobility(middle).imag) == sign
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        at = self._mobility(low).real if turns.size else np.empty(0)
-        wrong = np.flatnonzero(at < 0.0)
-        if not wrong.size:
-            return np.inf, None
-        first = wrong[np.argmin(at[wrong])]
-        return float(-1.0 / at[first]), float(low[first])
+        return self._actuator.mobility(self.powertrain._core, frequency)
 
     @property
     def applied_gain(self) -> float:

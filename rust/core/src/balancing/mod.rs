@@ -4,12 +4,14 @@
 //! scale with ω², so that one fit serves every speed. Forces are in kg·m here, moments and torques in
 //! kg·m²: over ω².
 
+pub mod adaptive;
 mod angle_lists;
 pub mod bob_weight;
 pub mod card;
 pub mod counterweights;
 mod discs;
 mod least_squares;
+pub mod phasors;
 pub mod shafts;
 pub mod weights;
 
