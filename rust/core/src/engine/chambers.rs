@@ -36,6 +36,14 @@ impl Engine {
         self.kept.get(|_: &Vec<SharedChamber>| true, new).unwrap_or_default()
     }
 
+    /// Indices of the cylinders of each chamber that can fire, in the order of those under whose numbers they do.
+    #[must_use]
+    pub fn chambers(&self) -> Vec<Vec<usize>> {
+        let cylinders = || (0..self.stations.len()).filter(|&i| !self.details[i].dummy);
+        let of = |lead: usize| cylinders().filter(|&i| self.fires_as(i) == lead).collect();
+        cylinders().filter(|&i| self.fires_as(i) == i).map(of).collect()
+    }
+
     /// Angle of the main crank from a piston's top dead centre to where the chamber is smallest that it shares;
     /// none where it shares none.
     #[must_use]

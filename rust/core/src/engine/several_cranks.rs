@@ -189,7 +189,7 @@ impl EngineOnCrank<'_> {
         (angle + self.tilt - ratio.turned(self.delay)).reduced()
     }
 
-    /// A weight of it, behind so many cylinders and cranks.
+    /// A weight of it, behind these numbers of cylinders and cranks.
     fn counterweight(
         &self,
         k: usize,
