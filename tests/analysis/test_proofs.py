@@ -356,7 +356,6 @@ def test_nothing_that_is_said_to_be_proved_is_false() -> None:
     assert min(counts["hardware"], counts["gas"]) > 0, counts
 
 
-@pytest.mark.filterwarnings("ignore:.* face each other in one bore:UserWarning")
 @pytest.mark.parametrize("fired", [False, True])
 def test_no_proof_is_false(fired: bool) -> None:
     counts: Counter[tuple[str, bool]] = Counter()

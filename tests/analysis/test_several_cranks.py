@@ -521,18 +521,21 @@ cylinder = { crank_radius = 0.04, rod_length = 0.12, reciprocating_mass = 0.7, b
 """
 
 
-def test_pistons_that_face_each_other_share_a_chamber_that_is_not_known() -> None:
+def test_pistons_that_face_each_other_share_a_chamber() -> None:
     engine = cp.Engine.from_toml(OPPOSED)
+    assert engine.chambers == ((1, 2), (3,), (4,))
     order = engine.firing_orders()[0].firing_order
-    fired = engine.replace(firing_order=order)
-    with pytest.warns(UserWarning, match="pistons 1 and 2 face each other in one bore"):
-        fired.with_cycle(cp.Cycle.example())
-    petrol = cp.Cycle.example()
-    fired.with_cycle([petrol, None, petrol, petrol])  # one of the two alone
+    fired, petrol = engine.replace(firing_order=order), cp.Cycle.example()
+    assert fired.with_cycle(petrol).cycles == (petrol,) * 4
+    with pytest.raises(cp.InputError, match="two ends of one chamber: give both the same cycle"):
+        fired.with_cycle([petrol, None, petrol, petrol])
+    with pytest.raises(cp.InputError, match="2 shares the chamber of 1, which fires once"):
+        engine.firing("1-2-3-4")
     # Beside each other, and away from each other, as of a boxer on two cranks.
     for place, other in (("x = 0.0", "x = 0.01"), ("y = 0.5", "y = -0.5")):
         apart = cp.Engine.from_toml(OPPOSED.replace(place, other))
-        apart.replace(firing_order=order).with_cycle(petrol)
+        assert apart.chambers == ((1,), (2,), (3,), (4,))
+        apart.replace(firing_order=apart.firing_orders()[0].firing_order).with_cycle(petrol)
 
 
 def test_what_counterweights_leave_is_said_of_one_sense_alone() -> None:

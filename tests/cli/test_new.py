@@ -145,6 +145,13 @@ LAYOUTS: dict[str, tuple[str, dict[str, Any]]] = {
               {"bank_deg": [60, 120, 180], "throws_deg": [0, 90]}),
     "w": ("--throws 0,180", {"bank_deg": "W", "throws_deg": [0, 180]}),
     "x": ("--throws 0,180", {"bank_deg": "X", "throws_deg": [0, 180]}),
+    "opposed-pistons": ("--throws 0,180 --distance 0.9 --lead 25/2 --ratio=-1 --strokes 4",
+                        {"throws_deg": [0, 180], "distance": 0.9, "lead_deg": "25/2", "ratio": -1,
+                         "strokes": 4}),
+    "u": ("--throws 0,180 --distance 300mm --phase 90",
+          {"throws_deg": [0, 180], "distance": 0.3, "phase_deg": 90}),
+    "square-four": ("--distance 12cm --ratio 1", {"distance": 0.12, "ratio": 1}),
+    "h": ("--throws 0 --distance 0.3", {"throws_deg": [0], "distance": 0.3}),
 }  # fmt: skip
 
 

@@ -75,6 +75,7 @@ def files() -> list[str]:
 
 
 AUTO = {"orders": "auto"}
+SINGLE = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1)
 SIX = [0.5, 0.51, 0.49, 0.5, 0.505, 0.495, 0.5]
 
 KINDS: dict[str, list[Any]] = {
@@ -107,8 +108,10 @@ KINDS: dict[str, list[Any]] = {
     "crank": [0, Beside([0, 0, 0, 1, 1, 1], {"cranks": [(0.0, 0.0, 1), (0.2, 0.0, -1)]})],
     "cranks": [Beside([(0.0, 0.0, 1), (0.2, 0.0, -1)], {"crank": [0, 0, 0, 1, 1, 1]})],
     "diameter": [0.05],
+    "distance": [0.5],
     "first_tdc_deg": [30],
     "intervals_deg": [[120] * 6],
+    "lead_deg": [12.0],
     "mains": [[-0.05, 0.05, 0.15, 0.25]],
     "measured_z": [[0.0, 0.4]],
     "phase_deg": [5.0],
@@ -131,6 +134,7 @@ KINDS: dict[str, list[Any]] = {
     "throws_deg": [[0, 120, 240], [0, 240, 120]],
     "tilt_deg": [30.0],
     "tolerance_deg": [0.01],
+    "upper": [CYLINDER],
     "width": [0.02],
     "window_deg": [(-120.0, -40.0)],
     "x": [0.1, "rpm"],
@@ -299,6 +303,14 @@ KINDS: dict[str, list[Any]] = {
     "part": ["crankcase"],
     "path": ["written.toml", "engine.toml", "written.csv", "written.html", "written.tex"],
     "load.path": list(files()),
+    "h.firing_order": ["1-4-5-2-3-6-7-10-11-8-9-12"],
+    "square.firing_order": ["1-2-4-3"],
+    "on.firing_order": ["1-2"],
+    "on.engines": [[SINGLE, SINGLE]],
+    "on.cranks": [[(0.2, 0.0, -1)]],
+    "on.phase_deg": [[30]],
+    "on.tilt_deg": [[10]],
+    "on.z": [[0.1]],
     "q": [0.5],
     "tidy.columns": ["pressure"],
     "sel.order": [1, 2],

@@ -802,9 +802,12 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
     )
 
 
-@pytest.mark.parametrize("name", ["u16", "H-24", "square four"])
-def test_engines_of_two_crankshafts_are_files(name: str) -> None:
-    with pytest.raises(cp.InputError, match=r"several crankshafts is an engine file with \[\[cran"):
+@pytest.mark.parametrize(
+    ("name", "builder"),
+    [("u16", "u"), ("H-24", "h"), ("square four", "square_four"), ("opposed-6", "opposed_pistons")],
+)
+def test_engines_of_two_crankshafts_have_builders(name: str, builder: str) -> None:
+    with pytest.raises(cp.InputError, match=rf"build it by Engine.{builder}\("):
         cp.Engine.preset(name)
 
 

@@ -142,6 +142,16 @@ def test_yokes_and_dummy_pistons_turn(open_engine: Open) -> None:
     assert failed == []
 
 
+def test_pistons_of_one_chamber_fire_once(open_engine: Open) -> None:
+    engine = cp.Engine.opposed_pistons(
+        cp.Cylinder(0.05, 0.2, 1.2), throws_deg=[0, 120, 240], spacing=0.15, distance=0.9,
+        lead_deg=12, firing_order="1-3-2",
+    )  # fmt: skip
+    page = open_engine(engine)
+    assert page.locator("[data-name=firing-order]").text_content() == "1-3-2"
+    assert page.locator("[data-name=firing-intervals]").text_content() == "(every 120°)"
+
+
 @pytest.mark.parametrize("name", ["v6-60", "vr6", "v8-crossplane", "boxer-6", "everything"])
 def test_any_setting(open_engine: Open, name: str) -> None:
     engine = ENGINES[name]

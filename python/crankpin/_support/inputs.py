@@ -649,6 +649,15 @@ def faulty(argument: str, fault: str, hint: str, kind: type[InputError] = InputE
     return error
 
 
+def renamed(error: InputError, old: str, new: str) -> InputError:
+    """Return the error of an argument that a caller gave under another name."""
+    argument, hint = error.argument, error.hint
+    if argument is None or hint is None or not argument.startswith(old):
+        return error
+    fault = str(error)[len(argument) + 1 : -len(hint) - 2]
+    return faulty(new + argument.removeprefix(old), fault, hint, type(error))
+
+
 def only_one_of(**values: object) -> None:
     """Reject two arguments unless exactly one of them is given."""
     if sum(value is not None for value in values.values()) != 1:

@@ -365,7 +365,7 @@ READERS: tuple[tuple[str, Callable[[Given, str, str], Any]], ...] = (
     (r"^number(,| or) str", Given.angle),
     (r"^(str|path)", lambda given, flag, _: given.text(flag)),
     (r"sequence of int|iterable of int", lambda given, flag, _: given.whole_numbers(flag)),
-    (r"^(int|\{\d)", lambda given, flag, _: given.whole(flag)),
+    (r"^(int|\{-?\d)", lambda given, flag, _: given.whole(flag)),
     (r"^array_like$", lambda given, flag, unit: given.one_or_several(flag, unit)),
     (r"^(array_like|pair of float|sequence of float)", Given.numbers),
     (r"", Given.number),

@@ -38,6 +38,10 @@ BUILDERS = {
     "banks": "from_banks",
     "w": "from_banks",
     "x": "from_banks",
+    "opposed-pistons": "opposed_pistons",
+    "u": "u",
+    "square-four": "square_four",
+    "h": "h",
 }
 """Kind → the builder of :class:`Engine` that takes all of its layout from options."""
 
@@ -107,6 +111,10 @@ LAYOUT = {
         _of_shape(Engine.from_lists, "crank"),
         _of_shape(Engine.from_lists, "cranks", read=_cranks, metavar="X:Y:RATIO,…"),
         _of_shape(Engine.from_lists, "z"),
+        _of_shape(Engine.u, "distance"),
+        _of_shape(Engine.u, "ratio"),
+        _of_shape(Engine.u, "phase_deg"),
+        _of_shape(Engine.opposed_pistons, "lead_deg"),
     )
 }
 """Option → the argument of a builder that it gives."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, TypeVar
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.parameters import documented
 from crankpin.model import checks
@@ -30,6 +31,7 @@ FANS = {"W": (30, 90, 150), "X": (45, 135, 225, 315), "Y": (90, 210, 330), "H": 
 Numbering: TypeAlias = Literal["alternating", "by-bank"]
 Side: TypeAlias = Literal["right", "left"]
 FiringRule: TypeAlias = Literal["even", "ijesc"]
+OfCranks = TypeVar("OfCranks", bound="Builders")
 
 
 class Builders(EngineData):
@@ -590,6 +592,358 @@ class Builders(EngineData):
             return engine
         return cls(_core.Firing.at_intervals(engine._core, order, strokes, fired[1]).kept())
 
+    @classmethod
+    @documented(from_lists)
+    def on_cranks(
+        cls,
+        engines: Sequence[Self],
+        *,
+        cranks: Iterable[tuple[float, float, float]],
+        phase_deg: Angles | None = None,
+        tilt_deg: Angles | None = None,
+        z: ArrayLike | None = None,
+        hold: Literal["pins", "firing"] = "pins",
+        firing_order: str | Iterable[int] = "",
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return one engine of several, each on a crank of its own.
+
+        Cylinders are numbered in the order of the engines. Counterweights and balance shafts are
+        those of the engines; cycles, further loads and main bearings are given to the whole.
+
+        Parameters
+        ----------
+        engines : sequence of Engine
+            The first, on the main crank, and further ones.
+        cranks : sequence of (float, float, int)
+            Crank of each further engine: x and y of its axis from that of the main one, m, and its
+            speed over that of the main one, below zero against it.
+        phase_deg : sequence of number or str, optional
+            Crank angle of the main crank at which the own one of each further engine is 0, degrees;
+            by default 0.
+        tilt_deg : sequence of number or str, optional
+            Angle by which each further engine is turned about its crank, bores and all, degrees in
+            the direction of rotation; 180 stands it on its head. By default 0.
+        z : array_like, optional
+            How far each further engine stands behind its own places, towards the flywheel, m; by
+            default 0.
+        hold : {"pins", "firing"}, default "pins"
+            What is kept where a crank turns against the main one. ``"pins"``: crank and bores, so
+            that the engine runs backwards. ``"firing"``: every top dead centre, with the crankpins
+            mirrored at their bores.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Raises
+        ------
+        InputError
+            If lists differ in length, an engine has what belongs to the whole, or a figure is out
+            of range.
+
+        Examples
+        --------
+        Two twins side by side, their cranks geared against each other:
+
+        >>> import crankpin as cp
+        >>> twin = cp.Engine.preset("i2-180")
+        >>> four = cp.Engine.on_cranks([twin, twin], cranks=[(0.15, 0, -1)], phase_deg=[180])
+        >>> four.tdc_deg
+        array([  0., 180., 180.,   0.])
+        >>> four.vanishing_orders().force.remaining
+        (2, 4, 6, 8, 10, 12)
+        """
+        parts = _engines(engines)
+        further, count = _further(cranks), len(parts) - 1
+        if len(further) != count:
+            raise inputs.faulty("cranks", f"has {len(further)} entries", f"give {count}")
+        none = ["0"] * count
+        phases = none if phase_deg is None else inputs.angles("phase_deg", phase_deg)
+        tilts = none if tilt_deg is None else inputs.angles("tilt_deg", tilt_deg)
+        places = [0.0] * count if z is None else inputs.listed_numbers("z", z)
+        for argument, length in {
+            "phase_deg": len(phases), "tilt_deg": len(tilts), "z": len(places),
+        }.items():  # fmt: skip
+            if length != count:
+                raise inputs.faulty(argument, f"has {length} entries", f"give {count}")
+        held = inputs.one_of("hold", hold, ("pins", "firing"))
+        cores = [part._core for part in parts]
+        core = _core.Engine.on_cranks(cores, further, phases, tilts, places, held)
+        return cls(core, name, source, firing_order, parts[0].strokes)
+
+    @classmethod
+    @documented(inline)
+    def opposed_pistons(
+        cls,
+        cylinder: Cylinders,
+        *,
+        throws_deg: Angles,
+        spacing: ArrayLike,
+        distance: float,
+        lead_deg: Angle = 0.0,
+        upper: Cylinders | None = None,
+        ratio: int = 1,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 2,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return an upright engine with two pistons in each bore, on a crank below and one above.
+
+        Lower cylinders are numbered first, then upper ones. The two pistons of a bore share a
+        chamber, which fires once, under the lower number (:attr:`chambers`).
+
+        Parameters
+        ----------
+        spacing : float or array_like
+            Distance between neighbouring bores, m, or of each from the one before it.
+        distance : float
+            Distance of the upper crank above the lower one, m.
+        lead_deg : number or str, default 0.0
+            Angle by which the upper crank is ahead of the lower one, degrees.
+        upper : Cylinder, sequence of Cylinder or mapping of str to Cylinder, optional
+            Moving parts of the upper cylinders; by default those of the lower ones.
+        ratio : {1, -1}, default 1
+            Speed of the second crank over that of the main one: 1 turns with it, -1 against it.
+        firing_order : str or sequence of int, optional
+            …, of chambers.
+        strokes : {2, 4}, default 2
+            Strokes of a cycle.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.05, 0.2, 1.2)
+        >>> twelve = cp.Engine.opposed_pistons(
+        ...     cylinder,
+        ...     throws_deg=[0, 120, 240, 240, 120, 0],
+        ...     spacing=0.15,
+        ...     distance=0.9,
+        ...     lead_deg=12,
+        ...     firing_order="1+6-3+4-2+5",
+        ... )
+        >>> twelve.vanishing_orders().force.remaining
+        (6, 12)
+        """
+        layout: dict[str, Any] = {
+            "throws_deg": throws_deg, "spacing": spacing, "rotating_mass": rotating_mass,
+            "first_tdc_deg": first_tdc_deg, "strokes": strokes,
+        }  # fmt: skip
+        above = lower = cls.inline(cylinder, **layout)
+        if upper is not None:
+            try:
+                above = cls.inline(upper, **layout)
+            except InputError as error:
+                raise inputs.renamed(error, "cylinder", "upper") from None
+        lead = inputs.angle("lead_deg", lead_deg)
+        later = lead[1:] if lead.startswith("-") else f"-{lead}"
+        checks.angles(lead_deg=lead_deg)
+        return _doubled(
+            cls, lower, distance, ratio, above=above, is_aside=False, phase_deg=later, tilt_deg=180,
+            firing_order=firing_order, name=name, source=source,
+        )  # fmt: skip
+
+    @classmethod
+    @documented(opposed_pistons)
+    def u(
+        cls,
+        cylinder: Cylinders,
+        *,
+        throws_deg: Angles,
+        spacing: ArrayLike,
+        distance: float,
+        phase_deg: Angle = 0.0,
+        ratio: int = -1,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return two upright engines of one bank side by side, their cranks geared together.
+
+        Left cylinders are numbered first, then right ones.
+
+        Parameters
+        ----------
+        cylinder : Cylinder, sequence of Cylinder or mapping of str to Cylinder
+            Moving parts of every cylinder, of each of one engine by number, or of its bank by name.
+        spacing : float or array_like
+            Distance between neighbouring cylinders, m, or of each from the one before it.
+        distance : float
+            Distance of the second crank to the right of the main one, m.
+        phase_deg : number or str, default 0.0
+            Crank angle by which the second engine is later than the first, degrees.
+        ratio : {-1, 1}, default -1
+            Speed of the second crank over that of the main one: 1 turns with it, -1 against it.
+        firing_order : str or sequence of int, optional
+            ….
+        strokes : {4, 2}, default 4
+            Strokes of a cycle.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.6)
+        >>> twin = cp.Engine.u(cylinder, throws_deg=[0], spacing=0.1, distance=0.2)
+        >>> abs(twin.balance(rpm=3000, orders=[1]).force).round(1)
+        array([[   0. , 5092.6]])
+        """
+        one = cls.inline(
+            cylinder, throws_deg=throws_deg, spacing=spacing, rotating_mass=rotating_mass,
+            first_tdc_deg=first_tdc_deg, strokes=strokes,
+        )  # fmt: skip
+        return _doubled(
+            cls, one, distance, ratio, is_aside=True, phase_deg=phase_deg,
+            firing_order=firing_order, name=name, source=source,
+        )  # fmt: skip
+
+    @classmethod
+    @documented(u)
+    def square_four(
+        cls,
+        cylinder: Cylinders,
+        *,
+        spacing: float,
+        distance: float,
+        ratio: int = -1,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return two upright twins of 180° side by side, of which diagonal pistons move together.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.027, 0.11, 0.3)
+        >>> four = cp.Engine.square_four(cylinder, spacing=0.08, distance=0.1)
+        >>> four.vanishing_orders().force.remaining
+        (2, 4, 6, 8, 10, 12)
+        """
+        return cls.u(
+            cylinder, throws_deg=[0, 180], spacing=spacing, distance=distance, phase_deg=180,
+            ratio=ratio, rotating_mass=rotating_mass, first_tdc_deg=first_tdc_deg,
+            firing_order=firing_order, strokes=strokes, name=name, source=source,
+        )  # fmt: skip
+
+    @classmethod
+    @documented(u)
+    def h(
+        cls,
+        cylinder: Cylinders,
+        *,
+        throws_deg: Angles,
+        spacing: ArrayLike,
+        distance: float,
+        phase_deg: Angle = 0.0,
+        ratio: int = -1,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return two flat engines one above the other, their cranks geared together.
+
+        Lower cylinders are numbered first, each engine as :meth:`flat` does.
+
+        Parameters
+        ----------
+        spacing : float or array_like
+            Distance between neighbouring throws, m, or of each from the one before it.
+        distance : float
+            Distance of the second crank above the main one, m.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.025, 0.1, 0.3)
+        >>> h16 = cp.Engine.h(
+        ...     cylinder, throws_deg=[0, 180, 180, 0], spacing=0.09, distance=0.2, phase_deg=90
+        ... )
+        >>> len(h16), h16.vanishing_orders().force.remaining
+        (16, ())
+        """
+        one = cls.flat(
+            cylinder, throws_deg=throws_deg, spacing=spacing, rotating_mass=rotating_mass,
+            first_tdc_deg=first_tdc_deg, strokes=strokes,
+        )  # fmt: skip
+        return _doubled(
+            cls, one, distance, ratio, is_aside=False, phase_deg=phase_deg,
+            firing_order=firing_order, name=name, source=source,
+        )  # fmt: skip
+
+
+def _doubled(
+    kind: type[OfCranks],
+    one: OfCranks,
+    distance: float,
+    ratio: int,
+    *,
+    is_aside: bool,
+    above: OfCranks | None = None,
+    phase_deg: Angle,
+    tilt_deg: float = 0.0,
+    **names: Any,  # noqa: ANN401
+) -> OfCranks:
+    """Return an engine and one like it on a second crank as fast, whose firing is held."""
+    apart = inputs.positive("distance", distance)
+    if inputs.whole("ratio", ratio, -1) not in (1, -1):
+        raise inputs.rejected("ratio", ratio, "give 1, or -1 against the main crank")
+    phase = inputs.angle("phase_deg", phase_deg)
+    checks.angles(phase_deg=phase_deg)
+    return kind.on_cranks(
+        [one, one if above is None else above],
+        cranks=[(apart, 0.0, ratio) if is_aside else (0.0, apart, ratio)],
+        phase_deg=[phase],
+        tilt_deg=[tilt_deg],
+        hold="firing",
+        **names,
+    )
+
+
+def _engines(engines: object) -> list[Any]:
+    """Return engines; rejects what is none."""
+    hint = "give a list of engines"
+    listed = inputs.items("engines", engines, hint)
+    for engine in listed:
+        if not isinstance(engine, Builders):
+            raise inputs.rejected("engines", engine, hint)
+    if not listed:
+        raise inputs.faulty("engines", "is empty", hint)
+    return listed
+
 
 def banks_of_order(
     firing_order: object, bank_angle_deg: Angle | None, numbering: object, odd_bank: object
@@ -603,8 +957,8 @@ def banks_of_order(
     return [(first + k) % 2 for k in range(count)]
 
 
-def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
-    """Return the crankshafts and that of each cylinder; None for the main one alone."""
+def _further(cranks: object) -> list[tuple[float, float, float]]:
+    """Return crankshafts besides the main one."""
     hint = "give x and y in metres and a ratio, such as [(0.2, 0.0, -1)]"
     further = []
     for k, each in enumerate(inputs.items("cranks", cranks, hint), 1):
@@ -613,6 +967,12 @@ def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
             raise inputs.rejected("cranks", each, hint)
         x, y = (inputs.finite("cranks", figure) for figure in figures[:2])
         further.append((x, y, inputs.speed_ratio(f"cranks[{k}].ratio", figures[2])))
+    return further
+
+
+def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
+    """Return the crankshafts and that of each cylinder; None for the main one alone."""
+    further = _further(cranks)
     if crank is None:
         if further:
             raise inputs.rejected("crank", None, "give the crankshaft of each cylinder, from 0")

@@ -60,7 +60,7 @@ class EngineData:
             )
         title, origin = inputs.text("name", name), inputs.text("source", source)
         count = inputs.strokes(strokes)
-        order = inputs.firing_order("firing_order", firing_order, core.bank, _dummies(core))
+        order = inputs.firing_order("firing_order", firing_order, core.bank, _silent(core))
         if order:
             core = core.firing_as(_core.Firing.named(core, order, count).text, count)
         elif count != 4:
@@ -274,8 +274,9 @@ class EngineData:
     def banks(self) -> dict[str, tuple[int, ...]]:
         """Numbers of the cylinders of each bank, by its name.
 
-        Two banks are ``"right"`` and ``"left"``, as seen from the flywheel; others ``"bank 1"``,
-        ``"bank 2"``, …. A bank is an index: a vee at 0° has two.
+        Two banks are ``"right"`` and ``"left"``, as seen from the flywheel; others, and parallel
+        ones of several cranks, ``"bank 1"``, ``"bank 2"``, …. A bank is an index: a vee at 0° has
+        two.
 
         Examples
         --------
@@ -287,15 +288,43 @@ class EngineData:
         for number, bank in enumerate(self._core.bank, start=1):
             members.setdefault(bank, []).append(number)
         ordered = sorted(members)
-        names = ["right", "left"] if len(ordered) == 2 else [f"bank {k + 1}" for k in ordered]
+        is_vee = len(ordered) == 2 and self._has_sides()
+        names = ["right", "left"] if is_vee else [f"bank {k + 1}" for k in ordered]
         return {name: tuple(members[bank]) for name, bank in zip(names, ordered, strict=True)}
 
     @property
+    def chambers(self) -> tuple[tuple[int, ...], ...]:
+        """Numbers of the cylinders of each chamber: two where pistons face each other in one bore.
+
+        Such pistons are on different cranks. Their chamber fires once, under the first number,
+        where it is smallest; dummy pistons have none.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.05, 0.2, 1.2)
+        >>> cp.Engine.opposed_pistons(
+        ...     cylinder, throws_deg=[0, 120, 240], spacing=0.2, distance=0.9
+        ... ).chambers
+        ((1, 4), (2, 5), (3, 6))
+        """
+        return tuple(tuple(chamber) for chamber in self._core.chambers)
+
+    @property
     def bank_angle_deg(self) -> float:
-        """Angle between the two banks, degrees; undefined for any other number of banks."""
+        """Angle between the two banks, degrees.
+
+        Undefined for any other number of banks, and for parallel ones of several cranks.
+        """
         if len(self.banks) != 2:
             raise self._of_banks("bank_angle_deg", "exactly two are needed")
+        if not self._has_sides():
+            self._banks_of_one_crank("bank_angle_deg")
         return self._core.bank_angle_deg
+
+    def _has_sides(self) -> bool:
+        """Return whether two banks are a vee: on one crank, or neither parallel nor opposite."""
+        return len(set(self._core.cranks[1])) == 1 or 0.0 < self._core.bank_angle_deg < 180.0
 
     @property
     def throws_deg(self) -> NDArray[np.float64]:
@@ -501,8 +530,8 @@ class EngineData:
         Warns
         -----
         UserWarning
-            If the pressure takes more work from the crank than an engine does, ``crankcase`` seems
-            to be in another unit, or two pistons face each other in one bore.
+            If the pressure takes more work from the crank than an engine does, or ``crankcase``
+            seems to be in another unit.
 
         Examples
         --------
@@ -929,15 +958,20 @@ def parts(cylinder: object) -> tuple[float, float, float, float, float]:
     return cylinder._parts
 
 
+def _silent(core: _CoreEngine) -> set[int]:
+    """Return the numbers that have no place in a firing order: dummies, and second pistons."""
+    return {*range(1, len(core.details) + 1)} - {chamber[0] for chamber in core.chambers}
+
+
 def _dummies(core: _CoreEngine) -> set[int]:
     """Return the numbers of dummy pistons."""
     return {number for number, (*_, dummy) in enumerate(core.details, start=1) if dummy}
 
 
 def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
-    """Return a firing order without dummy pistons; an empty text if the crank does not allow it."""
-    dummies = {str(number) for number in _dummies(core)}
-    groups = ([each for each in group.split("+") if each not in dummies]
+    """Return a firing order of all chambers; an empty text if the crank does not allow it."""
+    silent = {str(number) for number in _silent(core)}
+    groups = ([each for each in group.split("+") if each not in silent]
               for group in firing_order.split("-"))  # fmt: skip
     order = "-".join("+".join(group) for group in groups if group)
     try:

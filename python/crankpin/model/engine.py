@@ -556,9 +556,9 @@ class Engine(Framed, Builders):
 
     def _summary(self) -> list[str]:
         """Return the lines above a table of the engine."""
-        count = len(self.banks)
-        if count == 2:
-            banks = f"bank angle {self.bank_angle_deg:.6g}°"
+        count, angle = len(self.banks), getattr(self, "bank_angle_deg", None)
+        if angle is not None:
+            banks = f"bank angle {angle:.6g}°"
         else:
             banks = f"{count} banks" if count > 1 else f"bores at {self.bank_deg[0]:.6g}°"
         name = labels.one_line(self.name) or "Engine"

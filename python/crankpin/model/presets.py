@@ -273,7 +273,10 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
 
 
 RECIPES = (
-    (r"(u|h)[- ]?\d|square|opposed", "", ""),
+    (r"square", "new square-four --distance …", "square_four(…)"),
+    (r"opposed", "new opposed-pistons --throws … --distance …", "opposed_pistons(…)"),
+    (r"u[- ]?\d", "new u --throws … --distance …", "u(…, throws_deg=[…])"),
+    (r"h[- ]?\d", "new h --throws … --distance …", "h(…, throws_deg=[…])"),
     (
         r"v[- ]?\d*[13579](?!\d)",
         "new vee --bank-angle {0} --throws … --absent …",
@@ -295,8 +298,6 @@ def _recipe(name: str, *, typed: bool) -> str:
     for pattern, command, call in RECIPES:
         if not re.match(pattern, name):
             continue
-        if not command:
-            return "an engine of several crankshafts is an engine file with [[cranks]]; "
         base = name.rpartition("-")[0]
         if typed and command.startswith("new vee") and base in aliases():
             return f"build it by crankpin new {base} --bank-angle {number[0]}; "

@@ -8,8 +8,8 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, CrankIndex, Details, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
-    file,
+    Crank, CrankIndex, Details, EngineOnCrank, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station,
+    Unbalance, file,
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
@@ -307,6 +307,35 @@ impl Engine {
         Ok(engine.or_raise()?.into())
     }
 
+    /// One engine of several, the first on the main crank; of the others the crank, phase, tilt and place.
+    #[staticmethod]
+    fn on_cranks(
+        engines: Vec<PyRef<'_, Self>>,
+        cranks: Vec<(f64, f64, RatioNumber)>,
+        phase_deg: Vec<Angle>,
+        tilt_deg: Vec<Angle>,
+        z: Vec<f64>,
+        held: &str,
+    ) -> PyResult<Self> {
+        let mut parts = Vec::with_capacity(engines.len());
+        for (k, engine) in engines.iter().enumerate() {
+            let mut part = EngineOnCrank {
+                engine: &engine.0,
+                crank: Crank::MAIN,
+                delay: core::Angle::ZERO,
+                tilt: core::Angle::ZERO,
+                z: 0.0,
+            };
+            if let Some(k) = k.checked_sub(1) {
+                let (x, y, speed) = cranks[k];
+                part.crank = Crank { axis: [x, y], ratio: ratio(speed)? };
+                (part.delay, part.tilt, part.z) = (phase_deg[k].0, tilt_deg[k].0, z[k]);
+            }
+            parts.push(part);
+        }
+        core::Engine::on_cranks(&parts, hold(held)?).or_raise().map(Self::from)
+    }
+
     #[staticmethod]
     fn inline(parts: Parts, layout: InlineLayout) -> PyResult<Self> {
         layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
@@ -387,6 +416,12 @@ impl Engine {
     #[getter]
     fn name(&self) -> &str {
         self.0.name()
+    }
+
+    /// Numbers of the cylinders of each chamber that can fire.
+    #[getter]
+    fn chambers(&self) -> Vec<Vec<usize>> {
+        self.0.chambers().iter().map(|chamber| numbers(chamber)).collect()
     }
 
     /// A text with its placeholders filled in.

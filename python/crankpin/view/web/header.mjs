@@ -41,8 +41,8 @@ export class Header {
     this.changes.replaceChildren(...said(CHANGES.filter(([, key]) => settings[key] !== own[key]), (key, _, unit) =>
       fixed(html, "span", `changed-${key}`, settings[key], `${short(settings[key], 6)}${unit}`)));
     if (!firing) return;
-    // Dummy pistons have no strokes.
-    const fired = cylinders.filter(({ strokes }) => strokes);
+    // Dummy pistons have no strokes, and two pistons may share a chamber.
+    const fired = cylinders.filter(({ strokes, number, fires_as: as }) => strokes && number === as);
     const fires = ({ strokes: [[, begin]] }) => begin;
     // Rounding must not put one that fires with cylinder 1 last.
     const after = (each) =>

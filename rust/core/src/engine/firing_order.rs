@@ -36,26 +36,37 @@ impl FiringOrder {
 
     /// Rejects an order that does not name every cylinder that fires, and no other, by whether each of
     /// the engine's is a dummy.
-    pub(crate) fn check_names_all(&self, dummies: &[bool]) -> Result<()> {
-        let firing = dummies.iter().filter(|dummy| !**dummy).count();
-        let which = if firing < dummies.len() { " that fire" } else { "" };
-        self.check(dummies, &format!("name each of the engine's {firing} cylinders{which} once"))
+    pub(crate) fn check_names_all(
+        &self,
+        count: usize,
+        firing: &[usize],
+        why_not: impl Fn(usize) -> String,
+    ) -> Result<()> {
+        let which = if firing.len() < count { " that fire" } else { "" };
+        let named = format!("name each of the engine's {} cylinders{which} once", firing.len());
+        self.check(count, firing, why_not, &named)
     }
 
     /// Rejects an order that leaves out a cylinder below the highest that it names.
     pub(crate) fn check_complete(&self) -> Result<()> {
-        self.check(&vec![false; self.cylinders().len()], NAMED)
+        let all: Vec<usize> = (0..self.cylinders().len()).collect();
+        self.check(all.len(), &all, |_| String::new(), NAMED)
     }
 
-    fn check(&self, dummies: &[bool], named: &str) -> Result<()> {
+    fn check(
+        &self,
+        count: usize,
+        firing: &[usize],
+        why_not: impl Fn(usize) -> String,
+        named: &str,
+    ) -> Result<()> {
         let cylinders = self.cylinders();
-        let fires = |number: usize| dummies.get(number - 1).is_some_and(|dummy| !dummy);
-        let missing = (1..=dummies.len()).find(|n| fires(*n) && !cylinders.contains(n));
-        let other = cylinders.iter().find(|&&number| !fires(number));
+        let missing = firing.iter().map(|i| i + 1).find(|number| !cylinders.contains(number));
+        let other = cylinders.iter().find(|&&number| !firing.contains(&(number - 1)));
         let hint = match (missing, other) {
             (None, None) => return Ok(()),
-            (_, Some(&number)) if number <= dummies.len() => {
-                format!("{number} is a dummy piston, which does not fire; leave it out")
+            (_, Some(&number)) if number <= count => {
+                format!("{number} {}; leave it out", why_not(number - 1))
             }
             (_, Some(_)) if cylinders.len() == 1 => self.dashed(),
             (Some(number), _) => format!("{number} is missing; {named}"),
@@ -154,17 +165,17 @@ mod tests {
     #[test]
     fn orders_name_all_but_dummy_pistons() {
         let order: FiringOrder = "1-3".parse().unwrap();
-        assert_eq!(order.check_names_all(&[false, true, false]), Ok(()));
-        let hint = |dummies: &[bool]| order.check_names_all(dummies).unwrap_err().to_string();
-        assert!(hint(&[false; 3]).contains("2 is missing"));
+        let check = |count: usize, firing: &[usize]| {
+            order.check_names_all(count, firing, |_| "is a dummy piston".to_owned())
+        };
+        let hint = |count: usize, firing: &[usize]| check(count, firing).unwrap_err().to_string();
+        assert_eq!(check(3, &[0, 2]), Ok(()));
+        assert!(hint(3, &[0, 1, 2]).contains("2 is missing"));
         assert!(
-            hint(&[false, false])
-                .ends_with("2 is missing; name each of the engine's 2 cylinders once")
+            hint(2, &[0, 1]).ends_with("2 is missing; name each of the engine's 2 cylinders once")
         );
-        assert!(
-            hint(&[false, true]).ends_with("name each of the engine's 1 cylinders that fire once")
-        );
-        assert!(hint(&[false, true, true]).contains("3 is a dummy piston"));
+        assert!(hint(2, &[0]).ends_with("name each of the engine's 1 cylinders that fire once"));
+        assert!(hint(3, &[0]).contains("3 is a dummy piston"));
     }
 
     #[test]

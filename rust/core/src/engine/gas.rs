@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::layout::Strokes;
 use super::{CrankIndex, Engine, check_each_cylinder};
-use crate::Complex64;
 use crate::mechanism::cylinder::piston_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -36,8 +35,7 @@ impl Engine {
     ///
     /// [`crate::Firing::fires_in_second_turn`] is what an engine's firing order says.
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
-        check_each_cylinder("cycle", gas.cycle_of.len(), self.stations.len())?;
-        check_each_cylinder("later", gas.later.len(), self.stations.len())?;
+        self.check_shared_pressure(&gas.cycle_of, &gas.later)?;
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
@@ -67,38 +65,18 @@ impl Engine {
         self.details.iter().zip(&self.crank_of).all(is_slow)
     }
 
-    /// Pairs of cylinders that fire and whose pistons face each other along one bore, on different cranks:
-    /// they are two sides of one chamber.
-    #[must_use]
-    pub fn facing_pistons(&self) -> Vec<[usize; 2]> {
-        /// Distances below this part of that between two axes are rounding.
-        const FACING_TOLERANCE: f64 = 1e-9;
-        let facing = |one: usize, other: usize| {
-            let [a, b] = [one, other].map(|i| &self.stations[i]);
-            let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
-            let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
-            let along = apart * a.bank.cis(-1);
-            let is_opposite = b.bank.is_direction_of(a.bank + Angle::HALF_TURN);
-            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > FACING_TOLERANCE * apart.norm();
-            is_opposite && !is_beside && along.re > 0.0 && self.fires(one) && self.fires(other)
-        };
-        let cylinders = self.stations.len();
-        let pairs = (0..cylinders).flat_map(|i| (0..cylinders).map(move |k| [i, k]));
-        let crank = |i: usize| self.crank_of[i];
-        pairs.filter(|&[i, k]| i < k && crank(i) != crank(k) && facing(i, k)).collect()
-    }
-
     /// Index of a cylinder's cycle, where pressure counts.
     #[must_use]
     pub fn cycle_of(&self, cylinder: usize) -> Option<usize> {
         self.gas.as_ref()?.cycle_of[cylinder]
     }
 
-    /// Cycle of a cylinder and absolute pressure in the crankcase, Pa, where pressure counts.
+    /// Cycle of a cylinder, from its piston's top dead centre on, and absolute pressure in the crankcase, Pa, where
+    /// pressure counts.
     #[must_use]
     pub fn pressure_of(&self, cylinder: usize) -> Option<(Arc<Cycle>, f64)> {
         let (gas, cycle) = (self.gas.as_ref()?, self.cycle_of(cylinder)?);
-        Some((Arc::clone(&gas.cycles[cycle]), gas.crankcase))
+        Some((self.cycle_met(cylinder, &gas.cycles[cycle]), gas.crankcase))
     }
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, where that is

@@ -4,6 +4,7 @@
 //! of comparing numbers and a vee at 0° stays a vee.
 
 mod banks;
+pub mod chambers;
 pub mod crankpins;
 pub mod file;
 mod firing_order;
@@ -13,6 +14,7 @@ pub mod loads;
 mod name;
 pub mod periodic;
 pub mod radial;
+pub mod several_cranks;
 mod shaft;
 pub mod warnings;
 
@@ -22,9 +24,11 @@ use serde::{Deserialize, Serialize};
 
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
 use self::banks::{banks_of_directions, right_bank};
+pub use self::chambers::SharedChamber;
 pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
+pub use self::several_cranks::EngineOnCrank;
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
 use crate::mechanism::Mechanism;
 use crate::mechanism::cylinder::Cylinder;

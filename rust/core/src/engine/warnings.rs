@@ -105,22 +105,7 @@ pub fn of_gas(engine: &Engine, cancel: &Cancel) -> Result<Vec<Warning>> {
         let cycle = &gas.cycles[cycle];
         found.extend(work(cycle, cycle.imep(&station.cylinder, cancel)?));
     }
-    found.extend(facing(engine));
     Ok(distinct(found))
-}
-
-/// Of pistons that share a chamber, each of which has a cycle of its own.
-fn facing(engine: &Engine) -> Option<Warning> {
-    let pairs = engine.facing_pistons();
-    let named: Vec<String> =
-        pairs.iter().take(MOST_NAMED).map(|[i, k]| format!("{} and {}", i + 1, k + 1)).collect();
-    let more = if pairs.len() > MOST_NAMED { ", …" } else { "" };
-    let text = format!(
-        "pistons {}{more} face each other in one bore: they share one chamber, which fires once, and each is \
-         computed with a chamber and a cycle of its own",
-        named.join(", ")
-    );
-    (!pairs.is_empty()).then(|| Warning::new("cycles", text))
 }
 
 fn distinct(found: Vec<Warning>) -> Vec<Warning> {

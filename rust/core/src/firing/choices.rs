@@ -26,8 +26,11 @@ impl Firing {
     ) -> Result<Vec<Self>> {
         let highest = highest_points(engine)?;
         let count = highest.len();
-        let dummies: Vec<bool> = engine.details().iter().map(|details| details.dummy).collect();
-        order.check_names_all(&dummies)?;
+        let fires: Vec<usize> = firing(engine).collect();
+        order.check_names_all(count, &fires, |i| match engine.fires_as(i) {
+            lead if lead == i => "is a dummy piston, which does not fire".to_owned(),
+            lead => format!("shares the chamber of {}, which fires once", lead + 1),
+        })?;
         // From that whose piston is highest first.
         let first =
             firing(engine).min_by(|&a, &b| highest[a].degrees().total_cmp(&highest[b].degrees()));

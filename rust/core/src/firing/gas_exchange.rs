@@ -120,7 +120,7 @@ impl Firing {
             .iter()
             .enumerate()
             .map(|(k, &name)| {
-                let angles = self.angles().into_iter().zip(self.engine().stations());
+                let angles = self.highest().into_iter().zip(self.engine().stations());
                 (name, angles.map(|each| period(k, each)).collect())
             })
             .collect()
@@ -130,7 +130,7 @@ impl Firing {
     pub fn open(&self, timing: &Timing) -> Result<[Periods; 2]> {
         let mut found = [(); 2].map(|()| Vec::new());
         for (i, (firing, place)) in
-            self.angles().into_iter().zip(self.engine().stations()).enumerate()
+            self.highest().into_iter().zip(self.engine().stations()).enumerate()
         {
             let (turn, downwards) = (Angle::TURN, top_to_bottom(place));
             let [first, second] = match (*timing, self.strokes()) {

@@ -13,15 +13,13 @@ pub(super) fn highest_points(engine: &Engine) -> Result<Vec<Angle>> {
         engine.check_cycle_is_of_main_crank(cylinder, "cylinders but dummy pistons fire")?;
     }
     let stations = engine.stations();
-    let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
-    let mut highest: Vec<Angle> = stations
-        .iter()
-        .map(|station| {
-            let past = highest_after_tdc(station) - past_first;
-            let top = station.tdc - first;
+    let mut highest: Vec<Angle> = (0..stations.len())
+        .map(|i| {
+            let past = fires_after_first(engine, i);
+            let top = stations[i].tdc - stations[0].tdc;
             // Engines with offset pins are laid out so that this is a part of a turn.
             let top =
-                if past == 0.0 { top } else { (top + degrees(past)).nearby_part(MOST_ROUNDING) };
+                if past == Angle::ZERO { top } else { (top + past).nearby_part(MOST_ROUNDING) };
             let top = top.reduced();
             if same(top, Angle::TURN) { Angle::ZERO } else { top }
         })
@@ -35,6 +33,24 @@ pub(super) fn highest_points(engine: &Engine) -> Result<Vec<Angle>> {
         }
     }
     Ok(highest)
+}
+
+/// Angle after top dead centre at which a cylinder fires: where its piston is highest, or the chamber smallest that
+/// it shares.
+pub(super) fn fires_after_tdc(engine: &Engine, cylinder: usize) -> Angle {
+    let highest = || degrees(highest_after_tdc(&engine.stations()[cylinder]));
+    engine.chamber_delay(cylinder).unwrap_or_else(highest)
+}
+
+/// The same less that of the first cylinder.
+pub(super) fn fires_after_first(engine: &Engine, cylinder: usize) -> Angle {
+    let both = [cylinder, 0];
+    if both.iter().all(|&i| engine.chamber_delay(i).is_none()) {
+        let [own, first] = both.map(|i| highest_after_tdc(&engine.stations()[i]));
+        return degrees(own - first);
+    }
+    let [own, first] = both.map(|i| fires_after_tdc(engine, i));
+    own - first
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.

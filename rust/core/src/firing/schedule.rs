@@ -3,8 +3,10 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::highest_points::{degrees, highest_after_tdc, highest_points, same};
-use crate::engine::{Engine, Station};
+use super::highest_points::{
+    degrees, fires_after_first, fires_after_tdc, highest_after_tdc, highest_points, same,
+};
+use crate::engine::Engine;
 use crate::layout::Strokes;
 use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
@@ -68,8 +70,8 @@ impl Firing {
         strokes: Strokes,
         later: &[bool],
     ) -> Self {
-        let times: Vec<Angle> =
-            highest.iter().zip(later).map(|(&highest, &later)| highest + turn_if(later)).collect();
+        let time = |i: usize| highest[i] + turn_if(later[engine.fires_as(i)]);
+        let times: Vec<Angle> = (0..highest.len()).map(time).collect();
         let mut order: Vec<usize> = firing(engine).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
         let fired: Vec<usize> = order.iter().copied().filter(|&i| engine.fires(i)).collect();
@@ -140,24 +142,32 @@ impl Firing {
     /// Crank angles at which the cylinders fire, by number, within a cycle.
     #[must_use]
     pub fn angles(&self) -> Vec<Angle> {
-        let first = &self.engine.stations()[0];
-        let top = first.tdc + degrees(highest_after_tdc(first));
+        let top = self.engine.stations()[0].tdc + fires_after_tdc(&self.engine, 0);
         self.times.iter().map(|&time| self.within(top.reduced() + time)).collect()
+    }
+
+    /// Crank angles at which pistons are highest about their firing, by number, within a cycle.
+    pub(super) fn highest(&self) -> Vec<Angle> {
+        let highest = |(i, fires): (usize, Angle)| {
+            let Some(delay) = self.engine.chamber_delay(i) else { return fires };
+            let past = degrees(highest_after_tdc(&self.engine.stations()[i]));
+            self.within(fires - delay + past)
+        };
+        self.angles().into_iter().enumerate().map(highest).collect()
     }
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, by number.
     #[must_use]
     pub fn fires_in_second_turn(&self) -> Vec<bool> {
         let stations = self.engine.stations();
-        let first = &stations[0];
-        let second = |(place, time): (&Station, &Angle)| {
+        let second = |i: usize| {
             // Times are those of highest points, which with pin offsets lie beside the dead centres.
-            let past = highest_after_tdc(place) - highest_after_tdc(first);
-            let phase = first.tdc.reduced().degrees() + time.degrees() - past;
-            let turn = (phase - place.tdc.reduced().degrees()) / 360.0;
+            let past = fires_after_first(&self.engine, i).degrees();
+            let phase = stations[0].tdc.reduced().degrees() + self.times[i].degrees() - past;
+            let turn = (phase - stations[i].tdc.reduced().degrees()) / 360.0;
             turn.round().rem_euclid(self.strokes.turns() as f64) != 0.0
         };
-        stations.iter().zip(&self.times).map(second).collect()
+        (0..stations.len()).map(second).collect()
     }
 
     /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
@@ -202,9 +212,10 @@ impl Firing {
     }
 }
 
-/// Cylinders by index that a firing order names: all but dummy pistons.
+/// Cylinders by index that a firing order names: all but dummy pistons, and one of those that share a chamber.
 pub(super) fn firing(engine: &Engine) -> impl Iterator<Item = usize> {
-    (0..).zip(engine.details()).filter(|(_, details)| !details.dummy).map(|(i, _)| i)
+    let fires = |i: &usize| !engine.details()[*i].dummy && engine.fires_as(*i) == *i;
+    (0..engine.stations().len()).filter(fires)
 }
 
 /// A whole turn for what comes a turn later, else none.

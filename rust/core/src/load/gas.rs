@@ -6,6 +6,7 @@ use crate::engine::layout::Strokes;
 use crate::mechanism::DrivenMechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::mechanism::motion::{CrankPosition, MotionColumns};
+use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -26,6 +27,8 @@ pub(super) struct GasPressure {
     pub cycle: Arc<Cycle>,
     /// Its place among the cycles of the engine: those of a map may be equal at some speed and load alone.
     pub place: usize,
+    /// How much later than those the piston meets them.
+    pub delay: Angle,
     /// Absolute pressure in the crankcase, Pa.
     pub crankcase: f64,
 }
@@ -59,8 +62,9 @@ impl GasPressure {
 
 impl PartialEq for GasPressure {
     fn eq(&self, other: &Self) -> bool {
-        let Self { mechanism, cycle, place, crankcase } = self;
-        (mechanism, place, crankcase) == (&other.mechanism, &other.place, &other.crankcase)
+        let Self { mechanism, cycle, place, delay, crankcase } = self;
+        (mechanism, place, delay, crankcase)
+            == (&other.mechanism, &other.place, &other.delay, &other.crankcase)
             // Mostly it is one table, whose numbers need not be compared.
             && (Arc::ptr_eq(cycle, &other.cycle) || *cycle == other.cycle)
     }
@@ -145,8 +149,9 @@ impl Source for GasPressure {
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
         let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
-        let cycle = point.cycles.map_or(&self.cycle, |cycles| &cycles[self.place]);
-        Ok(Some(Arc::new(Self { mechanism, cycle: Arc::clone(cycle), ..*self })))
+        let met = |cycles: &[Arc<Cycle>]| cycles[self.place].delayed(self.delay);
+        let cycle = point.cycles.map_or_else(|| Arc::clone(&self.cycle), met);
+        Ok(Some(Arc::new(Self { mechanism, cycle, ..*self })))
     }
 
     fn exact(&self) -> ExactFactor {

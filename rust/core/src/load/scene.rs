@@ -14,6 +14,7 @@ use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::DrivenMechanism;
 use crate::mechanism::cylinder::Cylinder;
+use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::kept::Kept;
@@ -139,11 +140,12 @@ impl Scene {
             return loads;
         }
         for i in cylinders.clone() {
-            let cycle = engine.gas().and_then(|gas| Some((gas, gas.cycle_of[i]?)));
-            if let Some(((gas, place), roll)) = cycle.zip(engine.swept_by_radius(i)) {
-                let (mechanism, cycle) = (mechanism(i), Arc::clone(&gas.cycles[place]));
-                let crankcase = gas.crankcase;
-                let gas = GasPressure { mechanism, cycle, place, crankcase };
+            let pressure = engine.pressure_of(i).zip(engine.cycle_of(i));
+            if let Some((((cycle, crankcase), place), roll)) =
+                pressure.zip(engine.swept_by_radius(i))
+            {
+                let delay = engine.chamber_delay(i).unwrap_or(Angle::ZERO);
+                let gas = GasPressure { mechanism: mechanism(i), cycle, place, delay, crankcase };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();

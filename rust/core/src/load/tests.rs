@@ -210,7 +210,13 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let above: Vec<Load> = loads.list.iter().filter(is_gas).copied().collect();
     for load in &above {
         let mechanism = loads.source(load).mechanism().unwrap().clone();
-        let gas = GasPressure { mechanism, cycle: Arc::clone(&cycle), place: 0, crankcase: 0.0 };
+        let gas = GasPressure {
+            mechanism,
+            cycle: Arc::clone(&cycle),
+            place: 0,
+            delay: Angle::ZERO,
+            crankcase: 0.0,
+        };
         loads.push(load.place, gas, 0.0, -0.8 * load.roll);
     }
     let degrees: Vec<f64> = (0..200).map(|k| 3.7 * f64::from(k)).collect();

@@ -112,6 +112,13 @@ impl Cylinder {
         Self { reciprocating_mass: 0.0, rod_inertia_excess: 0.0, ..self }
     }
 
+    /// The same cylinder on a crank that turns the other way: its offset is on the other side then.
+    #[must_use]
+    pub(crate) fn mirrored(self) -> Self {
+        // Zero stays zero.
+        Self { pin_offset: 0.0 - self.pin_offset, ..self }
+    }
+
     /// Crank radius r, half the stroke, m.
     #[must_use]
     pub fn crank_radius(&self) -> f64 {

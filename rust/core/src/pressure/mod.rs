@@ -13,14 +13,18 @@ pub mod map;
 mod strokes;
 pub mod warnings;
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 pub use self::harmonics::GasTorque;
 use self::harmonics::LastTorques;
 use self::interpolant::Panels;
 pub use self::strokes::Strokes;
+use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::{FEWEST_POINTS, check_grid, repeats_first};
 use crate::numbers::error::{Error, Result};
+use crate::numbers::kept::Kept;
 use crate::numbers::limits;
 
 /// Most points of a cycle: 720° in steps of 0.01° are 72 000.
@@ -55,6 +59,14 @@ pub struct Cycle {
     strokes: Strokes,
     panels: Panels,
     last_torques: LastTorques,
+    /// The same, delayed.
+    kept: Kept,
+}
+
+/// A cycle by some degrees later.
+struct Delayed {
+    degrees: f64,
+    cycle: Arc<Cycle>,
 }
 
 /// What a cycle is made of.
@@ -120,7 +132,8 @@ impl Cycle {
             }
             Some(degree) => Panels::of_chebyshev(angles, values, period, degree)?,
         };
-        Ok(Self { given, strokes, panels, last_torques: LastTorques::default() })
+        let (last_torques, kept) = (LastTorques::default(), Kept::default());
+        Ok(Self { given, strokes, panels, last_torques, kept })
     }
 
     /// What it was made of.
@@ -133,6 +146,23 @@ impl Cycle {
     #[must_use]
     pub fn strokes(&self) -> Strokes {
         self.strokes
+    }
+
+    /// The same cycle by an angle later.
+    #[must_use]
+    pub fn delayed(self: &Arc<Self>, by: Angle) -> Arc<Self> {
+        let degrees = by.degrees();
+        if degrees == 0.0 {
+            return Arc::clone(self);
+        }
+        let new = || {
+            let mut later = Self::clone(self);
+            let angles = later.given.theta_deg.iter_mut().chain(&mut later.panels.edges);
+            angles.for_each(|angle| *angle += degrees);
+            Ok(Delayed { degrees, cycle: Arc::new(later) })
+        };
+        let delayed = self.kept.get(|one: &Delayed| one.degrees == degrees, new);
+        delayed.map_or_else(|_| Arc::clone(self), |one| Arc::clone(&one.cycle))
     }
 
     /// Whether the last point of a table repeats the first, a period later.

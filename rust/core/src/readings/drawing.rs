@@ -81,6 +81,8 @@ pub struct DrawnUnbalance {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DrawnCylinder {
     number: usize,
+    /// Number under which its chamber fires.
+    fires_as: usize,
     /// From 0: of two the right one.
     bank: usize,
     crank: usize,
@@ -199,6 +201,7 @@ fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
         };
         DrawnCylinder {
             number: i + 1,
+            fires_as: engine.fires_as(i) + 1,
             bank: if swapped { 1 - bank } else { bank },
             crank: crank.position(),
             crank_radius: parts.crank_radius(),

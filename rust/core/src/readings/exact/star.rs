@@ -76,12 +76,15 @@ impl Stars {
 
     /// Of a way to fire, with a weight for each cylinder.
     pub fn of_firing(firing: &Firing, weights: Vec<f64>, cancel: &Cancel) -> Result<Self> {
-        let groups = vec![(0, false); weights.len()];
-        Self::new(firing.phases(), weights, groups, fires(firing.engine()), cancel)
+        let (groups, engine) = (vec![(0, false); weights.len()], firing.engine());
+        let phase = |(i, phase)| phase + engine.chamber_delay(i).unwrap_or(Angle::ZERO);
+        let phases = firing.phases().into_iter().enumerate().map(phase).collect();
+        let fires = (0..weights.len()).map(|i| engine.fires(i) && engine.fires_as(i) == i);
+        Self::new(phases, weights, groups, fires.collect(), cancel)
     }
 
     /// Of the roll torque of the gas of an engine, as it fires if it has no cycles: alike are cylinders of
-    /// equal radius, rod, offset, bore and cycle on cranks of one speed; the torque of one that turns
+    /// equal radius, rod, offset, bore and cycle, met at the same time, on cranks of one speed; the torque of one that turns
     /// against the main crank has the opposite sign.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
         let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
@@ -91,7 +94,8 @@ impl Stars {
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            (sizes, engine.details()[i].bore, engine.cycle_of(i), ratio(i).halves().abs())
+            let (cycle, delay) = (engine.cycle_of(i), engine.chamber_delay(i));
+            (sizes, engine.details()[i].bore, cycle, delay, ratio(i).halves().abs())
         };
         let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
         let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);

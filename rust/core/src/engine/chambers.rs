@@ -1,0 +1,184 @@
+//! Chambers that two pistons share: they face each other along one bore, each on a crank of its own.
+
+use std::sync::Arc;
+
+use super::layout::Strokes;
+use super::{Engine, check_each_cylinder};
+use crate::Complex64;
+use crate::mechanism::motion::CrankPosition;
+use crate::numbers::angle::{Angle, cis_degrees};
+use crate::numbers::error::{Error, Result};
+use crate::pressure::Cycle;
+
+/// Distances below this part of that between two axes are rounding.
+const FACING_TOLERANCE: f64 = 1e-9;
+/// Most degrees by which one of the pistons may lead the other: further apart they compress little, and the chamber
+/// may be smallest twice in a turn.
+const LARGEST_LEAD: f64 = 90.0;
+/// Bisections, of which each halves an interval below a turn.
+const BISECTIONS: usize = 60;
+
+/// A chamber between two pistons; it fires once in a cycle, when it is smallest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SharedChamber {
+    /// Indices of the cylinders, the lower first: under its number the chamber fires.
+    pub pistons: [usize; 2],
+    /// Angle of the main crank from the top dead centre of each to where the chamber is smallest.
+    pub delays: [Angle; 2],
+}
+
+impl Engine {
+    /// Chambers that two pistons share. Dummy pistons share none, nor do pistons of cranks that are faster than
+    /// the main one or slower.
+    #[must_use]
+    pub fn shared_chambers(&self) -> Arc<Vec<SharedChamber>> {
+        let new = || Ok(self.facing_pistons().into_iter().map(|pair| self.chamber(pair)).collect());
+        self.kept.get(|_: &Vec<SharedChamber>| true, new).unwrap_or_default()
+    }
+
+    /// Indices of the cylinders of each chamber that can fire, in the order of those under whose numbers they do.
+    #[must_use]
+    pub fn chambers(&self) -> Vec<Vec<usize>> {
+        let cylinders = || (0..self.stations.len()).filter(|&i| !self.details[i].dummy);
+        let of = |lead: usize| cylinders().filter(|&i| self.fires_as(i) == lead).collect();
+        cylinders().filter(|&i| self.fires_as(i) == i).map(of).collect()
+    }
+
+    /// Angle of the main crank from a piston's top dead centre to where the chamber is smallest that it shares;
+    /// none where it shares none.
+    #[must_use]
+    pub fn chamber_delay(&self, cylinder: usize) -> Option<Angle> {
+        self.shared_chamber(cylinder).map(|(chamber, place)| chamber.delays[place])
+    }
+
+    /// The cylinder under whose number its chamber fires.
+    #[must_use]
+    pub fn fires_as(&self, cylinder: usize) -> usize {
+        self.shared_chamber(cylinder).map_or(cylinder, |(chamber, _)| chamber.pistons[0])
+    }
+
+    /// The chamber that a piston shares, and its place there.
+    fn shared_chamber(&self, cylinder: usize) -> Option<(SharedChamber, usize)> {
+        if self.cranks.len() == 1 {
+            return None;
+        }
+        let place = |chamber: &SharedChamber| {
+            let place = chamber.pistons.iter().position(|&piston| piston == cylinder)?;
+            Some((*chamber, place))
+        };
+        self.shared_chambers().iter().find_map(place)
+    }
+
+    /// Pairs of pistons that face each other along one bore, on different cranks.
+    fn facing_pistons(&self) -> Vec<[usize; 2]> {
+        let is_facing = |one: usize, other: usize| {
+            let [a, b] = [one, other].map(|i| &self.stations[i]);
+            let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
+            let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
+            let along = apart * a.bank.cis(-1);
+            let is_opposite = b.bank.is_direction_of(a.bank + Angle::HALF_TURN);
+            let is_beside = (a.z - b.z).abs().max(along.im.abs()) > FACING_TOLERANCE * apart.norm();
+            is_opposite && !is_beside && along.re > 0.0
+        };
+        let shares = |&i: &usize| {
+            !self.details[i].dummy && self.cranks[self.crank_of[i]].ratio.is_crank_speed()
+        };
+        let mut free: Vec<usize> = (0..self.stations.len()).filter(shares).collect();
+        let mut pairs = Vec::new();
+        while let [one, rest @ ..] = &free[..] {
+            let one = *one;
+            let is_other = |&other: &usize| self.crank_of[one] != self.crank_of[other];
+            let facing = rest.iter().copied().filter(is_other).find(|&other| is_facing(one, other));
+            free.retain(|&i| i != one && Some(i) != facing);
+            pairs.extend(facing.map(|other| [one, other]));
+        }
+        pairs
+    }
+
+    fn chamber(&self, pistons: [usize; 2]) -> SharedChamber {
+        let [one, other] = pistons.map(|i| &self.stations[i]);
+        let apart = (other.tdc - one.tdc + Angle::HALF_TURN).reduced() - Angle::HALF_TURN;
+        let sizes = |i: usize| {
+            let gear = &self.stations[i].cylinder;
+            (gear.crank_radius(), gear.rod_length(), self.details[i].bore)
+        };
+        let is_even = pistons.iter().all(|&i| self.stations[i].cylinder.pin_offset() == 0.0);
+        let first = if is_even && sizes(pistons[0]) == sizes(pistons[1]) {
+            apart.half()
+        } else {
+            // An angle that is finite.
+            Angle::from_degrees(self.smallest_after(pistons, apart.degrees()))
+                .unwrap_or(apart.half())
+        };
+        SharedChamber { pistons, delays: [first, first - apart] }
+    }
+
+    /// Degrees from the top dead centre of the first piston, of which the other's is so far apart, to where the
+    /// volume between both is smallest.
+    fn smallest_after(&self, pistons: [usize; 2], apart: f64) -> f64 {
+        let swept = pistons.map(|i| self.swept_by_radius(i));
+        let weights = match swept {
+            [Some(one), Some(other)] => [one, other],
+            _ => pistons.map(|i| self.stations[i].cylinder.crank_radius()),
+        };
+        let mechanisms = pistons.map(|i| self.mechanism(i));
+        let grows = |degrees: f64| {
+            let rate = |k: usize, angle: f64| {
+                let unit = cis_degrees(angle);
+                weights[k] * mechanisms[k].motion(&CrankPosition::new(unit.im, unit.re)).velocity
+            };
+            // A piston that moves away from its crank makes the chamber smaller.
+            rate(0, degrees) + rate(1, degrees - apart) < 0.0
+        };
+        let highest = pistons.map(|i| self.stations[i].cylinder.turning_points_deg()[0]);
+        let ends = [highest[0], apart + highest[1]];
+        let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if grows(middle) { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    }
+
+    /// Rejects pressure of shared chambers that is not one cycle's, or that fires twice in it.
+    pub(super) fn check_shared_pressure(
+        &self,
+        cycle_of: &[Option<usize>],
+        later: &[bool],
+    ) -> Result<()> {
+        check_each_cylinder("cycle", cycle_of.len(), self.stations.len())?;
+        check_each_cylinder("later", later.len(), self.stations.len())?;
+        for SharedChamber { pistons: [one, other], delays } in self.shared_chambers().iter() {
+            let named =
+                format!("cylinders {} and {} are the two ends of one chamber", one + 1, other + 1);
+            if cycle_of[*one] != cycle_of[*other] {
+                let hint = format!("{named}: give both the same cycle, or none");
+                return Err(Error::value(format!("cycle[{other}]"), "another one", hint));
+            }
+            if cycle_of[*one].is_none() {
+                continue;
+            }
+            let lead = (delays[0] - delays[1]).degrees().abs();
+            if lead > LARGEST_LEAD {
+                let hint = format!(
+                    "{named}, which needs cranks at most {LARGEST_LEAD}° apart; these are {lead}°"
+                );
+                return Err(Error::value("cycle", "given", hint));
+            }
+            let fires = |i: usize, delay: Angle| {
+                self.stations[i].tdc + Angle::whole_turns(later[i].into()) + delay
+            };
+            let apart = (fires(*one, delays[0]) - fires(*other, delays[1])).reduced_to(2).degrees();
+            if self.strokes == Strokes::Four && (apart - 360.0).abs() < 180.0 {
+                let hint = format!("{named}, which fires once: in one turn of the cycle");
+                return Err(Error::value(format!("later[{other}]"), later[*other], hint));
+            }
+        }
+        Ok(())
+    }
+
+    /// The cycle of a cylinder as its piston meets it: later by how much later a shared chamber is smallest.
+    pub(super) fn cycle_met(&self, cylinder: usize, cycle: &Arc<Cycle>) -> Arc<Cycle> {
+        cycle.delayed(self.chamber_delay(cylinder).unwrap_or(Angle::ZERO))
+    }
+}

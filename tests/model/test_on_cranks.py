@@ -1,0 +1,166 @@
+"""Are engines of several cranks those of their builders, and do facing pistons share a chamber?
+
+Forces of opposed pistons, of cranks against each other and of pistons on one shaft are in closed
+form; the work of a chamber is the integral of its pressure over its volume, which NumPy computes.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from support import in_turn
+
+RADIUS, ROD, MASS, RPM = 0.05, 0.05 / 0.26, 1.3, 2400.0
+UNIT = MASS * RADIUS * (2.0 * np.pi * RPM / 60.0) ** 2
+CYLINDER = cp.Cylinder(RADIUS, ROD, MASS, bore=0.08)
+
+
+def opposed(**layout: Any) -> cp.Engine:  # noqa: ANN401
+    """Return an engine of opposed pistons, by default of one bore."""
+    usual: dict[str, Any] = {"throws_deg": [0], "spacing": 0.15, "distance": 0.9}
+    return cp.Engine.opposed_pistons(CYLINDER, **(usual | layout))
+
+
+def test_force_of_a_lead_is_that_of_the_literature() -> None:
+    peaks = opposed(lead_deg=15).balance(RPM, orders=[1, 2]).force
+    # 2·aₙ·|sin(n·lead/2)|, a₁ = 1 and a₂ of λ = 0.26 exact.
+    assert peaks[1].peak / UNIT == pytest.approx(0.26105238, rel=1e-7)
+    assert peaks[2].peak / UNIT == pytest.approx(0.13693545, rel=1e-7)
+
+
+@pytest.mark.parametrize("ratio", [1, -1])
+@in_turn("lead", [0, 1e-9, 7.5, 20, 90, 180])
+def test_force_of_any_lead_is_in_closed_form(lead: float, ratio: int) -> None:
+    engine = opposed(lead_deg=lead, ratio=ratio)
+    amplitudes = cp.slider_crank_harmonics(0.26, (1, 2, 4, 6))
+    peaks = engine.balance(RPM, orders=[1, 2, 4, 6]).force.peak / UNIT
+    halves = np.radians(np.array([1, 2, 4, 6]) * lead) / 2.0
+    # Sines of near-multiples of π are good to an ulp of the angle.
+    assert peaks == pytest.approx(2.0 * np.abs(amplitudes * np.sin(halves)), abs=4e-15)
+    vanishing = engine.vanishing_orders((1, 2)).force
+    assert vanishing.vanishing == ((1, 2) if lead == 0 else (2,) if lead == 180 else ())
+
+
+def test_cranks_against_each_other_leave_an_upright_force() -> None:
+    twin = cp.Engine.u(CYLINDER, throws_deg=[0], spacing=0.1, distance=0.2)
+    halved = cp.bob_weight(twin, 0.5).fitted
+    peak = halved.balance(RPM, orders=[1]).force.peak_xy[0] / UNIT
+    # Two pistons, half of each balanced: 2·(1 − ½) upright, nothing across.
+    assert peak == pytest.approx([0.0, 1.0], abs=1e-15)
+
+
+@pytest.mark.parametrize("ratio", [1, -1])
+def test_builders_are_lists(ratio: int) -> None:
+    layout: dict[str, Any] = {"throws_deg": [0, 90, 270, 180], "spacing": 0.1}
+    one = cp.Engine.inline(CYLINDER, **layout)
+    listed = {"u": (90.0, (0.3, 0.0)), "opposed_pistons": (270.0, (0.0, 0.3))}
+    for name, (bore, (x, y)) in listed.items():
+        lead = {"lead_deg": 30} if name == "opposed_pistons" else {"phase_deg": -30}
+        built = getattr(cp.Engine, name)(
+            CYLINDER, distance=0.3, ratio=ratio, strokes=4, **layout, **lead
+        )
+        expected = cp.Engine.from_lists(
+            CYLINDER,
+            tdc_deg=[*one.tdc_deg, *(one.tdc_deg - 30.0)],
+            bank_deg=[90.0] * 4 + [bore] * 4,
+            z=[*one.z, *one.z],
+            cranks=[(x, y, ratio)],
+            crank=[0] * 4 + [1] * 4,
+        )
+        assert np.array_equal(built.tdc_deg, expected.tdc_deg)
+        found, known = (each.balance(RPM, orders=[1, 2, 4]) for each in (built, expected))
+        for quantity in ("force", "moment", "torque"):
+            assert np.array_equal(getattr(found, quantity), getattr(known, quantity)), quantity
+
+
+def test_an_engine_on_cranks_keeps_its_hardware() -> None:
+    single = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1)
+    balanced = cp.bob_weight(single, 0.5).fitted
+    twin = cp.Engine.on_cranks(
+        [balanced, balanced], cranks=[(0.2, 0, -1)], phase_deg=["45/2"], z=[0.1]
+    )
+    assert len(twin.counterweights) == 2 * len(balanced.counterweights)
+    force = twin.waveform(RPM, theta_deg=[10.0, 77.0]).force
+    first = balanced.waveform(RPM, theta_deg=[10.0, 77.0]).force
+    # The second one runs backwards, 22.5° later.
+    second = balanced.waveform(RPM, theta_deg=[22.5 - 10.0, 22.5 - 77.0]).force
+    assert np.asarray(force) == pytest.approx(
+        np.asarray(first) + second, rel=1e-12, abs=1e-9 * UNIT
+    )
+
+
+# --- chambers -------------------------------------------------------------------------------------
+
+
+def gas(**layout: Any) -> cp.Engine:  # noqa: ANN401
+    """Return three bores with pressure, two pistons in each."""
+    engine = opposed(throws_deg=[0, 120, 240], firing_order="1-3-2", **layout)
+    cycle = cp.Cycle.wiebe(
+        CYLINDER, compression_ratio=14, heat=900, start_deg=-8, strokes=engine.strokes
+    )
+    return engine.with_cycle(cycle)
+
+
+def test_a_chamber_fires_once_midway_between_its_dead_centres() -> None:
+    engine = opposed(throws_deg=[0, 120, 240], lead_deg=20)
+    assert engine.chambers == ((1, 4), (2, 5), (3, 6))
+    (order,) = engine.firing_orders(strokes=2)
+    assert order.firing_order == "1-3-2"
+    firing = engine.firing("1-3-2")
+    assert firing.intervals_deg == pytest.approx([120.0] * 3)
+    assert firing.angles_deg[:3] == pytest.approx([350.0, 230.0, 110.0])
+
+
+@in_turn("lead", [0.0, 12.0, 40.0])
+def test_work_of_a_chamber_is_that_of_its_pressure_over_its_volume(lead: float) -> None:
+    engine = gas(lead_deg=lead)
+    mean = engine.balance(RPM).crank_torque.gas.cycle_mean
+    angle = np.linspace(0.0, 360.0, 36001)
+    tdc = engine.tdc_deg[[0, 3]][:, None]
+    turned = np.radians(angle - tdc)
+    height = RADIUS * np.cos(turned) + np.sqrt(ROD**2 - (RADIUS * np.sin(turned)) ** 2)
+    volume = -0.25 * np.pi * 0.08**2 * height.sum(axis=0)
+    fires = engine.firing().angles_deg[0]
+    assert engine.cycles
+    assert engine.cycles[0]
+    pressure = engine.cycles[0].pressure_at(angle - fires)
+    work = float(((pressure[1:] + pressure[:-1]) / 2.0 * np.diff(volume)).sum())
+    # Trapezia of a hundredth of a degree.
+    assert mean == pytest.approx(3.0 * work / (2.0 * np.pi), rel=1e-6)
+
+
+def test_torques_of_both_cranks_are_those_of_the_whole_engine() -> None:
+    engine = gas(lead_deg=16)
+    theta = np.arange(0.0, 360.0, 7.0)
+    torque = engine.waveform(RPM, theta_deg=theta).crank_torque
+    loads = cp.bearing_loads(engine, RPM, theta)
+    pins = RADIUS * np.exp(1j * np.radians(engine.pin_deg[:, None] + theta))
+    force = np.asarray(loads.crankpin)
+    turning = (np.conj(pins) * (force[..., 0] + 1j * force[..., 1])).imag.sum(axis=0)
+    assert np.asarray(torque) == pytest.approx(turning, rel=1e-9, abs=1e-6)
+
+
+def test_what_has_no_meaning_is_rejected_by_name() -> None:
+    engine = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1)
+    changes: list[tuple[dict[str, Any], str]] = [
+        ({"cranks": []}, "cranks"),
+        ({"cranks": [(0.2, 0, 0)]}, r"cranks\[1\].ratio"),
+        ({"phase_deg": [1, 2]}, "phase_deg"),
+        ({"z": [0.1, 0.2]}, "z"),
+        ({"hold": "nothing"}, "hold"),
+        ({"engines": [engine, 3]}, "engines"),
+        ({"engines": []}, "engines"),
+    ]
+    for change, argument in changes:
+        arguments: dict[str, Any] = {"engines": [engine, engine], "cranks": [(0.2, 0, -1)]}
+        with pytest.raises(cp.InputError, match=rf"^{argument}"):
+            cp.Engine.on_cranks(**(arguments | change))
+    with pytest.raises(cp.InputError, match=r"^ratio = 2: give 1, or -1"):
+        opposed(ratio=2)
+    with pytest.raises(cp.InputError, match=r"^distance = 0"):
+        opposed(distance=0.0)
+    with pytest.raises(cp.InputError, match="at most 90° apart; these are 120°"):
+        gas(lead_deg=120)
