@@ -23,8 +23,6 @@ const BOUNDED: &[(&str, &str)] = &[
     ("readings/exact/", "loads of one engine, 10 000 orders"),
     ("readings/tolerances/", "128 samples of 4096 harmonics, one of 10 000 orders"),
     ("readings/sweep/block.rs", "32 rows of 10 000 orders"),
-    ("readings/sweep/choice.rs", "10 000 orders"),
-    ("readings/sweep/harmonics.rs", "10 000 orders"),
     ("readings/sweep/layout.rs", "10 000 orders"),
     ("search/", "512 ranges of keys, 360 parts of a turn"),
 ];
