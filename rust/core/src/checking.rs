@@ -521,10 +521,10 @@ impl<'a> Case<'a> {
             let request = Self::request(rpm, point);
             let found =
                 balance(&self.with, &request, &Orders::Auto { rtol: DEFAULT_RTOL }, &self.cancel)?;
-            let sweep = Sweep::within(
-                DEFAULT_RTOL,
+            let sweep = Sweep::new(
                 vec![Arc::clone(&self.with)],
                 Self::axes(None, vec![rpm]),
+                &Orders::Auto { rtol: DEFAULT_RTOL },
                 Some(point[2]),
                 true,
                 &self.cancel,
@@ -604,7 +604,14 @@ impl<'a> Case<'a> {
             };
             let engines = vec![Arc::clone(&self.with)];
             let axes = Self::axes(bank_angle, SPEEDS.to_vec());
-            let sweep = Sweep::new(engines, axes, orders.clone(), Some(point[2]), &self.cancel)?;
+            let sweep = Sweep::new(
+                engines,
+                axes,
+                &Orders::Given(orders.clone()),
+                Some(point[2]),
+                true,
+                &self.cancel,
+            )?;
             for (kind, first) in
                 [(Kind::Force, 0), (Kind::Moment, 2), (Kind::Torque, 4), (Kind::CrankTorque, 5)]
             {

@@ -9,8 +9,8 @@ pub struct Planar {
     pub forward: Complex64,
     /// Conjugate of the backward part, which is the coefficient of `e^{−inθ}`.
     pub backward_conj: Complex64,
-    /// Σ|terms| that were added up; a sum far below it is rounding error.
-    pub size: f64,
+    /// Bound of its rounding error: of either part, and of their sum.
+    pub bound: f64,
 }
 
 /// Roll torque of one order on the block and torque on the crank, about +z.
@@ -20,8 +20,8 @@ pub struct Torque {
     pub roll: Complex64,
     /// On the crank: peak phasor.
     pub crank: Complex64,
-    /// Σ|terms| on the block and on the crank: a force at an arm turns the block alone.
-    pub sizes: [f64; 2],
+    /// Bounds of the rounding errors on the block and on the crank: a force at an arm turns the block alone.
+    pub bounds: [f64; 2],
 }
 
 /// Force, moment about a point, and torque of one order: peak phasors.
@@ -77,7 +77,7 @@ impl Planar {
         // The backward part was conjugated, its amplitude was not.
         self.forward += other.forward * amplitude;
         self.backward_conj += other.backward_conj * amplitude;
-        self.size += other.size * amplitude.norm();
+        self.bound += other.bound * amplitude.norm();
     }
 
     /// Sum of two.
@@ -86,7 +86,7 @@ impl Planar {
         Self {
             forward: self.forward + other.forward,
             backward_conj: self.backward_conj + other.backward_conj,
-            size: self.size + other.size,
+            bound: self.bound + other.bound,
         }
     }
 
@@ -97,7 +97,7 @@ impl Planar {
             // Adding zero makes −0, of a part below zero at rest, 0.
             forward: self.forward * factor + Complex64::default(),
             backward_conj: self.backward_conj * factor,
-            size: self.size * factor,
+            bound: self.bound * factor,
         }
     }
 
@@ -108,12 +108,13 @@ impl Planar {
         Self { forward: i * self.forward, backward_conj: -i * self.backward_conj, ..*self }
     }
 
-    /// Both parts, zero where they are within the bound.
+    /// Both parts, zero where rounding is all there is.
+    #[inline]
     #[must_use]
-    pub fn snapped(&self, bound: f64) -> Self {
+    pub fn snapped(&self) -> Self {
         Self {
-            forward: snapped(self.forward, bound),
-            backward_conj: snapped(self.backward_conj, bound),
+            forward: snapped(self.forward, self.bound),
+            backward_conj: snapped(self.backward_conj, self.bound),
             ..*self
         }
     }
@@ -149,7 +150,7 @@ impl Torque {
         Self {
             roll: self.roll + other.roll,
             crank: self.crank + other.crank,
-            sizes: [0, 1].map(|on| self.sizes[on] + other.sizes[on]),
+            bounds: [0, 1].map(|on| self.bounds[on] + other.bounds[on]),
         }
     }
 
@@ -158,7 +159,7 @@ impl Torque {
     pub fn scaled(&self, factor: f64) -> Self {
         // As of vectors.
         let [roll, crank] = [self.roll, self.crank].map(|t| t * factor + Complex64::default());
-        Self { roll, crank, sizes: self.sizes.map(|size| size * factor) }
+        Self { roll, crank, bounds: self.bounds.map(|bound| bound * factor) }
     }
 
     /// The larger of the two.
@@ -197,22 +198,13 @@ impl Wrench {
         }
     }
 
-    /// The wrench of a sum of loads at an order, zero where rounding is all there is; of the numbers of loads
-    /// with a force, and of all.
+    /// The wrench, zero where rounding is all there is.
     #[must_use]
-    pub fn snapped(&self, counts: [usize; 2], order: f64) -> Self {
-        let [of_force, of_torque] = counts.map(|count| rounding(count, order));
-        let vector = |vector: &Planar| vector.snapped(vector.size * of_force);
-        let [of_roll, of_crank] = self.torque.sizes.map(|size| size * of_torque);
-        Self {
-            force: vector(&self.force),
-            moment: vector(&self.moment),
-            torque: Torque {
-                roll: snapped(self.torque.roll, of_roll),
-                crank: snapped(self.torque.crank, of_crank),
-                ..self.torque
-            },
-        }
+    pub fn snapped(&self) -> Self {
+        let Torque { roll, crank, bounds } = self.torque;
+        let torque =
+            Torque { roll: snapped(roll, bounds[0]), crank: snapped(crank, bounds[1]), bounds };
+        Self { force: self.force.snapped(), moment: self.moment.snapped(), torque }
     }
 
     /// The same wrench with its moment about a point this far from the reference point, m.
@@ -225,7 +217,7 @@ impl Wrench {
         moved.moment.add_scaled(&self.force.quarter_turned(), Complex64::new(-z, 0.0));
         let [force_x, force_y] = self.force.xy(0.0);
         moved.torque.roll -= force_y * x - force_x * y;
-        moved.torque.sizes[0] += self.force.size * (x.abs() + y.abs());
+        moved.torque.bounds[0] += self.force.bound * (x.abs() + y.abs());
         moved
     }
 }
@@ -272,7 +264,7 @@ mod tests {
         let [x, y] = [Complex64::new(3.0, 0.0), Complex64::new(0.0, 4.0)];
         let i = Complex64::i();
         let force =
-            Planar { forward: (x + i * y) * 0.5, backward_conj: (x - i * y) * 0.5, size: 7.0 };
+            Planar { forward: (x + i * y) * 0.5, backward_conj: (x - i * y) * 0.5, bound: 7.0 };
         let at_force = Wrench { force, ..Wrench::default() };
         let seen = at_force.moved([-0.1, 0.2, -0.5]);
         let [about_x, about_y] = seen.moment.xy(0.0);

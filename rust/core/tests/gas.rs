@@ -206,7 +206,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
         let cycles: Vec<_> = nodes()
             .map(|(speed, load)| made(0.1, 0.2, factor(speed, load)).gas().unwrap().cycles.clone())
             .collect();
-        let orders = common::whole(&[1, 2, 4]);
+        let orders = Orders::whole(&[1, 2, 4]).unwrap();
         let sweep = |cycles: &[Vec<Arc<Cycle>>]| {
             let map = MapAxes {
                 rpm: speeds.to_vec(),
@@ -220,7 +220,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
                 map: Some(map),
                 ..SweepAxes::default()
             };
-            Sweep::new(engines.clone(), axes, orders.clone(), None, &Cancel::new())
+            Sweep::new(engines.clone(), axes, &orders, None, true, &Cancel::new())
         };
         let refused = |cycles: &[Vec<Arc<Cycle>>]| sweep(cycles).unwrap_err().to_string();
         assert!(refused(&cycles[1..]).starts_with("cycles = 5"));
@@ -341,7 +341,8 @@ fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
             map: None,
         };
         let engines = vec![Arc::new(fired_vee(VEE)), Arc::new(unfired(&fired_vee(VEE)))];
-        let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
+        let sweep =
+            Sweep::new(engines, axes, &Orders::Given(orders.clone()), None, true, &cancel).unwrap();
         for (part, on_crank) in
             [(Part::GAS, false), (Part::GAS, true), (Part::Whole, false), (Part::Whole, true)]
         {
@@ -378,7 +379,8 @@ fn few_orders_of_fired_sweeps_leave_out_no_more_than_their_bound() {
     let (rtol, rpm) = (5e-3, 300.0);
     let chosen = |engine: Engine, axes: &SweepAxes, torque: bool| {
         let engines = vec![Arc::new(engine)];
-        Sweep::within(rtol, engines, axes.clone(), None, torque, &Cancel::new()).unwrap()
+        Sweep::new(engines, axes.clone(), &Orders::Auto { rtol }, None, torque, &Cancel::new())
+            .unwrap()
     };
     let one = SweepAxes { rpm: vec![rpm], ..SweepAxes::default() };
     let twice = SweepAxes { pin_offset: Some(vec![0.0; 2]), ..one.clone() };
@@ -424,7 +426,15 @@ fn waveforms_of_a_fired_sweep_have_its_means() {
     let rod_ratio = Some(ratios.to_vec());
     let axes = SweepAxes { rod_ratio, rpm: vec![1000.0], ..SweepAxes::default() };
     let orders = halves([1, 2, 3, 4, 9].into_iter());
-    let sweep = Sweep::new(vec![Arc::new(fired_vee(VEE))], axes, orders, None, &cancel).unwrap();
+    let sweep = Sweep::new(
+        vec![Arc::new(fired_vee(VEE))],
+        axes,
+        &Orders::Given(orders),
+        None,
+        true,
+        &cancel,
+    )
+    .unwrap();
     for on_crank in [false, true] {
         let whole = Part::Whole;
         let quantity = if on_crank {

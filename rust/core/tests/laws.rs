@@ -380,7 +380,7 @@ proptest! {
             pin_offset: Some(vec![offset, 0.0, -offset]),
             rpm: vec![rpm, 3000.0], map: None };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), &Cancel::new()).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, &Orders::whole(&ORDERS).unwrap(), Some(0.1), true, &Cancel::new()).unwrap();
         let phasors = |quantity| sweep.phasors(quantity, Statistic::Amplitude, &cancel).unwrap();
         let (force, moment) = (phasors(Quantity::FORCE), phasors(Quantity::MOMENT));
         let torque = phasors(TORQUE);
@@ -421,7 +421,7 @@ proptest! {
             Station { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), &Cancel::new()).unwrap();
+        let sweep = Sweep::new(engines, axes, &Orders::whole(&ORDERS).unwrap(), Some(0.0), true, &Cancel::new()).unwrap();
         let moment = sweep.phasors(Quantity::MOMENT, Statistic::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
@@ -444,7 +444,7 @@ proptest! {
                 pin_offset: None,
                 rpm: vec![3000.0], map: None };
             let engines = vec![engine.clone().into(), engine.clone().into()];
-            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, &Cancel::new()).unwrap();
+            let sweep = Sweep::new(engines, axes, &Orders::whole(&[1, 2, 4]).unwrap(), None, true, &Cancel::new()).unwrap();
             sweep.peaks(Quantity::MOMENT, Statistic::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);

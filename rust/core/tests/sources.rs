@@ -240,7 +240,15 @@ fn a_torque_independent_of_speed_is_the_same_at_any() {
     let rpm = vec![1000.0, 3000.0];
     let engines = vec![Arc::new(with_springs())];
     let axes = SweepAxes { rpm, ..SweepAxes::default() };
-    let sweep = Sweep::new(engines, axes, ValveSprings::orders(), None, &Cancel::new()).unwrap();
+    let sweep = Sweep::new(
+        engines,
+        axes,
+        &Orders::Given(ValveSprings::orders()),
+        None,
+        true,
+        &Cancel::new(),
+    )
+    .unwrap();
     let mut peaks = [0.0; 4];
     let mut write = |quantity| {
         sweep.write_peaks(quantity, Statistic::Amplitude, &mut peaks, &Cancel::new()).unwrap();

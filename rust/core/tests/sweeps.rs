@@ -15,8 +15,8 @@ use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Statistic, SweepAxes};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Request, Shaft,
-    Spectrum, SpeedRatio, Station, Sweep, Unbalance, harmonics,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders, Request,
+    Shaft, Spectrum, SpeedRatio, Station, Sweep, Unbalance, harmonics,
 };
 use proptest::prelude::*;
 
@@ -43,7 +43,15 @@ fn sweep(
 ) -> Sweep {
     let reference = Some(REFERENCE);
     let engines = engines.iter().map(|engine| given(engine, spectrum)).collect();
-    Sweep::new(engines, axes.clone(), whole(orders), reference, &Cancel::new()).unwrap()
+    Sweep::new(
+        engines,
+        axes.clone(),
+        &Orders::whole(orders).unwrap(),
+        reference,
+        true,
+        &Cancel::new(),
+    )
+    .unwrap()
 }
 
 fn phasors(sweep: &Sweep, quantity: Quantity, figure: Statistic) -> Vec<Complex64> {
@@ -477,8 +485,15 @@ fn as_much_as_rounding_can_leave_is_zero() {
     let of = |reference: f64| {
         let axes = SweepAxes { rpm: vec![3000.0], ..SweepAxes::default() };
         let engines = vec![given(&engine, Some(&spectrum))];
-        let sweep =
-            Sweep::new(engines, axes, whole(&[1]), Some(reference), &Cancel::new()).unwrap();
+        let sweep = Sweep::new(
+            engines,
+            axes,
+            &Orders::whole(&[1]).unwrap(),
+            Some(reference),
+            true,
+            &Cancel::new(),
+        )
+        .unwrap();
         peaks(&sweep, Quantity::MOMENT, Statistic::Amplitude)[1]
     };
     assert_eq!(of(reference), 0.0);
@@ -494,7 +509,8 @@ fn refusal(result: Result<impl Sized, Error>) -> String {
 
 fn new(axes: &SweepAxes, orders: &[u32], spectrum: Option<&Spectrum>) -> Result<Sweep, Error> {
     let engines = [plain(), mixed()].map(|engine| given(&engine, spectrum)).to_vec();
-    Sweep::new(engines, axes.clone(), whole(orders), None, &Cancel::new())
+    let orders = Orders::Given(whole(orders));
+    Sweep::new(engines, axes.clone(), &orders, None, true, &Cancel::new())
 }
 
 #[test]
@@ -503,10 +519,18 @@ fn values_that_cannot_be_are_refused() {
     assert!(new(&good, &[1], None).is_ok());
     assert!(refusal(new(&good, &[], None)).contains("orders"));
     assert!(refusal(new(&good, &[2, 2], None)).contains("orders"));
-    let no_engine = Sweep::new(vec![], good.clone(), whole(&[1]), None, &Cancel::new());
+    let no_engine =
+        Sweep::new(vec![], good.clone(), &Orders::whole(&[1]).unwrap(), None, true, &Cancel::new());
     assert!(refusal(no_engine).starts_with("engines = []"));
     let engines = vec![plain()];
-    let far = Sweep::new(engines, good.clone(), whole(&[1]), Some(f64::NAN), &Cancel::new());
+    let far = Sweep::new(
+        engines,
+        good.clone(),
+        &Orders::whole(&[1]).unwrap(),
+        Some(f64::NAN),
+        true,
+        &Cancel::new(),
+    );
     assert!(refusal(far).contains("reference_z"));
 
     // Behind many that can be.
@@ -533,7 +557,14 @@ fn values_that_cannot_be_are_refused() {
         assert!(refusal(new(&axes, &[1], None)).starts_with(told), "{told}");
     }
     let axes = SweepAxes { bank_angle: Some((vec![60.0], Hold::Pins)), ..good.clone() };
-    let no_banks = Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, &Cancel::new());
+    let no_banks = Sweep::new(
+        vec![plain(), in_line()],
+        axes,
+        &Orders::whole(&[1]).unwrap(),
+        None,
+        true,
+        &Cancel::new(),
+    );
     assert!(
         refusal(no_banks)
             .starts_with("bank_angle_deg is undefined for this engine: it has one bank")
@@ -667,7 +698,9 @@ fn a_sweep_tells_what_it_is() {
     // Torque, if it was wanted and is known.
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let speeds = SweepAxes { rpm: vec![3000.0], ..SweepAxes::default() };
-    for sweep in [all.without_torque(), new(&speeds, &[1], Some(&spectrum)).unwrap()] {
+    let (engines, orders) = (vec![plain(), mixed()], Orders::whole(&[1]).unwrap());
+    let quiet = Sweep::new(engines, speeds.clone(), &orders, None, false, &Cancel::new());
+    for sweep in [quiet.unwrap(), new(&speeds, &[1], Some(&spectrum)).unwrap()] {
         for (quantity, known) in [(Quantity::FORCE, true), (TORQUE, false), (CRANK_TORQUE, false)] {
             let found = sweep.phasors(quantity, Statistic::Amplitude, &Cancel::new());
             assert_eq!(found.is_ok(), known);
@@ -714,10 +747,14 @@ fn whoever_no_longer_waits_is_told_so() {
     };
     let engines = || vec![plain(), mixed()];
     let stopped = |result: Result<_, Error>| result.err() == Some(Error::Cancelled);
-    assert!(stopped(Sweep::within(1e-3, engines(), axes.clone(), None, true, &raised).map(drop)));
+    assert!(stopped(
+        Sweep::new(engines(), axes.clone(), &Orders::Auto { rtol: 1e-3 }, None, true, &raised)
+            .map(drop)
+    ));
     let speeds = SweepAxes { rpm: vec![3000.0, 1000.0], ..SweepAxes::default() };
     for axes in [axes, speeds] {
-        let made = Sweep::new(engines(), axes.clone(), whole(&[1]), None, &raised);
+        let made =
+            Sweep::new(engines(), axes.clone(), &Orders::whole(&[1]).unwrap(), None, true, &raised);
         assert!(stopped(made.map(drop)));
         let sweep = new(&axes, &[1, 2], None).unwrap();
         for quantity in QUANTITIES {
@@ -825,7 +862,8 @@ fn few_orders_are_chosen(
 ) -> Sweep {
     let cancel = Cancel::new();
     let (all, reference) = (engines.to_vec(), Some(REFERENCE));
-    let chosen = Sweep::within(rtol, all, axes.clone(), reference, torque, &cancel).unwrap();
+    let chosen =
+        Sweep::new(all, axes.clone(), &Orders::Auto { rtol }, reference, torque, &cancel).unwrap();
     assert_eq!(chosen.shape(), sweep(engines, axes, &[1], None).shape());
     let known = |quantity| chosen.peaks(quantity, Statistic::Sum, &cancel).is_ok();
     assert_eq!(QUANTITIES.map(known), [true, true, torque, torque]);
@@ -1082,7 +1120,8 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
         let stations = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
         let engine = Arc::new(Engine::new("", "", stations).unwrap());
         let (axes, cancel) = (axes.clone(), Cancel::new());
-        Sweep::within(rtol, vec![engine], axes, Some(REFERENCE), false, &cancel).unwrap()
+        Sweep::new(vec![engine], axes, &Orders::Auto { rtol }, Some(REFERENCE), false, &cancel)
+            .unwrap()
     };
     // A boxer pair in one plane: nothing at all. And half a turn apart in line order 2 is two thirds of
     // m·r·ω², and may be left out.
@@ -1125,7 +1164,15 @@ fn a_sweep_of_rod_ratios_leaves_out_what_the_largest_does() {
     let chosen = |ratios: &[f64]| {
         let (rod_ratio, rpm) = (Some(ratios.to_vec()), vec![3000.0]);
         let axes = SweepAxes { rod_ratio, rpm, ..SweepAxes::default() };
-        Sweep::within(1e-5, vec![Arc::clone(&upright)], axes, None, true, &Cancel::new()).unwrap()
+        Sweep::new(
+            vec![Arc::clone(&upright)],
+            axes,
+            &Orders::Auto { rtol: 1e-5 },
+            None,
+            true,
+            &Cancel::new(),
+        )
+        .unwrap()
     };
     let (many, one) = (chosen(&[0.2, 0.25, 0.3]), chosen(&[0.3]));
     assert_eq!((many.orders(), many.omitted()), (one.orders(), one.omitted()));
@@ -1167,7 +1214,7 @@ fn few_orders_of_a_spectrum_are_chosen() {
     let axes = SweepAxes { rpm: vec![3000.0], ..SweepAxes::default() };
     let chosen = |engine: &Arc<Engine>, rtol: f64, spectrum: &Spectrum| {
         let (engines, cancel) = (vec![given(engine, Some(spectrum))], Cancel::new());
-        Sweep::within(rtol, engines, axes.clone(), Some(REFERENCE), true, &cancel)
+        Sweep::new(engines, axes.clone(), &Orders::Auto { rtol }, Some(REFERENCE), true, &cancel)
     };
     let one = chosen(&upright, 2e-3, &spectrum).unwrap();
     assert_eq!((one.orders(), one.omitted()), (&whole(&[1, 6])[..], &whole(&[3, 4])[..]));
@@ -1184,6 +1231,7 @@ fn few_orders_of_a_spectrum_are_chosen() {
 
     assert!(refusal(chosen(&upright, 1.0, &only)).starts_with("rtol = 1"));
     let stiff = SweepAxes { rod_ratio: Some(vec![0.3, 1.0 - 1e-12]), ..axes.clone() };
-    let stiff = Sweep::within(1e-6, vec![plain()], stiff, None, true, &Cancel::new());
+    let stiff =
+        Sweep::new(vec![plain()], stiff, &Orders::Auto { rtol: 1e-6 }, None, true, &Cancel::new());
     assert!(refusal(stiff).starts_with("rtol = 1e-6: too many orders"));
 }

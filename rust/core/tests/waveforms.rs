@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use common::{
     InArrays, alone, angle, by_orders, in_line, kinematics, mixed, places, plain, there, weighted,
-    whole, xy,
+    xy,
 };
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::quantity::Quantity;
@@ -231,8 +231,15 @@ fn components(quantity: Quantity) -> std::ops::Range<usize> {
 const QUANTITIES: [Quantity; 4] = [Quantity::FORCE, Quantity::MOMENT, TORQUE, CRANK_TORQUE];
 
 fn sweep(engines: &[Arc<Engine>], axes: &SweepAxes, orders: &[u32]) -> Sweep {
-    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), &Cancel::new())
-        .unwrap()
+    Sweep::new(
+        engines.to_vec(),
+        axes.clone(),
+        &Orders::whole(orders).unwrap(),
+        Some(REFERENCE),
+        true,
+        &Cancel::new(),
+    )
+    .unwrap()
 }
 
 fn waveforms(sweep: &Sweep, quantity: Quantity, thetas: &[f64], exact: bool) -> Vec<f64> {
@@ -422,10 +429,18 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     let axes = SweepAxes { rpm: vec![RPM, 1000.0], ..SweepAxes::default() };
     let cancel = Cancel::new();
     let angles = CrankAngles::new(&thetas(9)).unwrap();
-    let with = |spectrum: Option<Spectrum>| {
+    let with = |spectrum: Option<Spectrum>, torque: bool| {
         let reference = Some(REFERENCE);
         let engine = spectrum.map_or(plain(), |spectrum| plain().with_spectrum(spectrum).into());
-        Sweep::new(vec![engine], axes.clone(), whole(&[1]), reference, &Cancel::new()).unwrap()
+        Sweep::new(
+            vec![engine],
+            axes.clone(),
+            &Orders::whole(&[1]).unwrap(),
+            reference,
+            torque,
+            &Cancel::new(),
+        )
+        .unwrap()
     };
     let told = |sweep: &Sweep, quantity: Quantity, exact: bool, room: usize| {
         let mut out = vec![0.0; room];
@@ -434,17 +449,17 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     };
     for exact in [true, false] {
         for room in [0, 35, 37] {
-            let told = told(&with(None), Quantity::FORCE, exact, room);
+            let told = told(&with(None, true), Quantity::FORCE, exact, room);
             assert!(told.starts_with(&format!("out = {room}")), "{told}");
         }
-        assert_eq!(told(&with(None), Quantity::FORCE, exact, 36), "");
-        assert_eq!(told(&with(None), TORQUE, exact, 18), "");
-        let told = told(&with(None).without_torque(), TORQUE, exact, 18);
+        assert_eq!(told(&with(None, true), Quantity::FORCE, exact, 36), "");
+        assert_eq!(told(&with(None, true), TORQUE, exact, 18), "");
+        let told = told(&with(None, false), TORQUE, exact, 18);
         assert!(told.starts_with("torque is not available: `torque: false`"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
-    assert_eq!(told(&with(Some(spectrum.clone())), Quantity::FORCE, false, 36), "");
-    let told = told(&with(Some(spectrum)), Quantity::FORCE, true, 36);
+    assert_eq!(told(&with(Some(spectrum.clone()), true), Quantity::FORCE, false, 36), "");
+    let told = told(&with(Some(spectrum), true), Quantity::FORCE, true, 36);
     assert!(told.starts_with("spectrum = given"), "{told}");
 
     let raised = Cancel::new();
@@ -453,9 +468,10 @@ fn waveforms_of_a_sweep_have_their_refusals() {
         let angles = CrankAngles::new(&thetas(count)).unwrap();
         for exact in [true, false] {
             let mut out = vec![0.0; 4 * count];
-            let result = with(None).waveforms(Quantity::FORCE, &angles, exact, &mut out, &raised);
+            let result =
+                with(None, true).waveforms(Quantity::FORCE, &angles, exact, &mut out, &raised);
             assert_eq!(result, Err(Error::Cancelled));
         }
     }
-    assert!(waveforms(&with(None), Quantity::FORCE, &[], true).is_empty());
+    assert!(waveforms(&with(None, true), Quantity::FORCE, &[], true).is_empty());
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crankpin_core as core;
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
-use crankpin_core::{Cancel, Complex64, Error, memory};
+use crankpin_core::{Cancel, Complex64, Error, Orders, memory};
 use crankpin_macros::guarded;
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
@@ -144,12 +144,10 @@ impl Sweep {
                     None => None,
                 },
             };
-            if let Some(orders) = orders {
-                return core::Sweep::new(engines, axes, orders, reference_z, cancel);
-            }
-            core::Sweep::within(rtol, engines, axes, reference_z, torque, cancel)
+            let orders = orders.map_or(Orders::Auto { rtol }, Orders::Given);
+            core::Sweep::new(engines, axes, &orders, reference_z, torque, cancel)
         })?;
-        Ok(Self { sweep: if torque { sweep } else { sweep.without_torque() }, swept })
+        Ok(Self { sweep, swept })
     }
 
     #[getter]

@@ -7,12 +7,12 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::quantity::Quantity;
 use crankpin_core::sweep::{Statistic, Sweep, SweepAxes};
-use crankpin_core::{Cancel, Error, Firing, Result, memory, waveform as waveforms};
+use crankpin_core::{Cancel, Error, Firing, Orders, Result, memory, waveform as waveforms};
 use serde_json::{Map, Value, json};
 
 use crate::answer::{Columns, degrees, orders as numbers};
 use crate::arguments::Arguments;
-use crate::balance::{RTOL, requested};
+use crate::balance::requested;
 use crate::engine::{firing_of, written};
 
 /// Force, moment and torques over crank angle, from exact kinematics or, of orders that are given, as their sum.
@@ -84,18 +84,10 @@ fn swept(arguments: &mut Arguments, cancel: &Cancel) -> Result<Sweep> {
         map: None,
     };
     let reference = arguments.optional("reference_z")?;
-    let rtol = arguments.or("rtol", RTOL)?;
-    match arguments.orders()? {
-        Some(orders) => Sweep::new(vec![engine], axes, orders, reference, cancel),
-        None => Sweep::within(
-            rtol,
-            vec![engine],
-            axes,
-            reference,
-            arguments.or("torque", false)?,
-            cancel,
-        ),
-    }
+    let orders = requested(arguments)?;
+    // Of orders that are given torque costs nothing until it is read.
+    let torque = matches!(orders, Orders::Given(_)) || arguments.or("torque", false)?;
+    Sweep::new(vec![engine], axes, &orders, reference, torque, cancel)
 }
 
 fn values(

@@ -73,8 +73,8 @@ fn without_rounding(values: &mut [Complex64]) {
     }
 }
 
-/// Part of the terms of a sum that is more than the errors of a fit leave.
-const NOTICEABLE: f64 = 1e-6;
+/// Times the rounding error of a sum, which is more than the errors of a fit leave: about a millionth of its terms.
+const NOTICEABLE: f64 = 1e8;
 
 /// What hardware brings about at an order that the engine does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,14 +104,14 @@ pub fn appearing(
             let wrench = over_square(&engine.of_speed_squared(), order, true, None, cancel)?;
             let (force, moment, torque) = (wrench.force, wrench.moment, wrench.torque);
             Ok([
-                (force.peak(), force.size),
-                (moment.peak(), moment.size),
-                (torque.roll.norm(), torque.sizes[0]),
+                (force.peak(), force.bound),
+                (moment.peak(), moment.bound),
+                (torque.roll.norm(), torque.bounds[0]),
             ])
         });
         let kinds = [Appearing::Force, Appearing::Moment, Appearing::Roll];
-        for ((kind, (was, _)), (is, size)) in kinds.into_iter().zip(was?).zip(is?) {
-            if was == 0.0 && is > NOTICEABLE * size {
+        for ((kind, (was, _)), (is, bound)) in kinds.into_iter().zip(was?).zip(is?) {
+            if was == 0.0 && is > NOTICEABLE * bound {
                 found.push((order, kind));
             }
         }

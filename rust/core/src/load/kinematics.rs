@@ -92,12 +92,6 @@ impl Kinematics {
         self.scalings.map_to(|scaling| scaling.factor(omega))
     }
 
-    /// 1 for each group of a scaling, or for all, 0 for the others.
-    pub fn factors_of(&self, scaling: Option<Scaling>) -> List<GroupIndex, f64> {
-        let counts = |own: &Scaling| scaling.is_none_or(|scaling| scaling == *own);
-        self.scalings.map_to(|own| f64::from(u8::from(counts(own))))
-    }
-
     /// Bounds of the rounding errors of force and moment that cancel: of groups times factors.
     pub fn zero_bounds(&self, factors: &List<GroupIndex, f64>) -> [f64; 2] {
         let bounds = self.zero_bounds.iter().zip(factors);

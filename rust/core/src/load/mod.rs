@@ -147,7 +147,7 @@ pub(crate) struct Wanted {
     pub by_bank: bool,
 }
 
-/// Sums of one order, by harmonic and, if wanted, by bank.
+/// Sums of one order, by harmonic and, if wanted, by bank: in the order of sources, whatever else is wanted.
 pub(crate) fn superpose<A: Arithmetic>(
     arithmetic: &A,
     loads: &[Load],
@@ -198,6 +198,8 @@ pub(crate) fn superpose<A: Arithmetic>(
             arithmetic.add(&mut term.roll, at, Weight::Roll, &phase, times);
         }
     }
+    // A force without an arm has no term where torque alone is wanted.
+    terms.sort_by_key(|term| term.harmonic);
     terms
 }
 
@@ -305,12 +307,12 @@ impl Factor {
 }
 
 impl Term<PhasorSum> {
-    /// Force and moment.
-    pub fn planar(&self) -> [Planar; 2] {
+    /// Force and moment, with this rounding error of a sum of 1.
+    pub fn planar(&self, rounding: f64) -> [Planar; 2] {
         [&self.force, &self.moment].map(|[forward, backward_conj]| Planar {
             forward: forward.value,
             backward_conj: backward_conj.value,
-            size: forward.size + backward_conj.size,
+            bound: (forward.size + backward_conj.size) * rounding,
         })
     }
 }

@@ -10,13 +10,14 @@ use crate::mechanism::{DrivenMechanism, HarmonicsOf, at_own_orders};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
 use crate::source::over_angle::{AngleBlock, BLOCK, Columns, LoadSum, Quantities, add_inertia};
 use crate::source::{
-    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, Scale, Series, Source, Tail,
-    TorqueAmplitudes, UpTo, amplitudes, is_equal,
+    Column, ExactFactor, ForcePart, INERTIA, Parts, Point, PointColumns, Scale, Series, Source,
+    Tail, TorqueAmplitudes, UpTo, amplitudes, is_equal,
 };
 
 /// Force over m·r·ω², torque over m·r²·ω².
@@ -79,6 +80,43 @@ impl Source for PistonInertia {
         };
         let rest = |halves| self.rest(halves);
         sizes_up_to_own(self, &self.0, (of, column), orders, rest, cancel).map(Some)
+    }
+
+    fn at_rod_ratios(
+        &self,
+        column: Column,
+        rod_ratios: &[f64],
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[PointColumns; 2]>> {
+        let speed = self.0.ratio.halves_of_speed();
+        let own = orders.iter().map(|order| order.halves()).filter(|n| n.is_multiple_of(speed));
+        let own: Vec<u32> = own.map(|halves| halves / speed).collect();
+        let (mechanism, [on_block, on_crank]) = (&self.0.mechanism, self.0.senses());
+        let (of, factors) = match column {
+            Column::Force => (HarmonicsOf::Force, vec![[1.0, 0.0]]),
+            // Imaginary; that on the crank is the negative of that on the block.
+            Column::Roll => (HarmonicsOf::Torque, vec![[0.0, on_block], [0.0, -on_crank]]),
+        };
+        let Some(table) = mechanism.at_rod_ratios(of, rod_ratios, &own, cancel)? else {
+            return Ok(None);
+        };
+        let mut both = [PointColumns::new(), PointColumns::new()];
+        for (columns, factors) in both.iter_mut().zip(factors) {
+            let mut places = 0..own.len();
+            for order in orders {
+                let place = order.halves().is_multiple_of(speed).then(|| places.next()).flatten();
+                let mut column =
+                    [memory::zeros(rod_ratios.len())?, memory::zeros(rod_ratios.len())?];
+                for (part, factor) in column.iter_mut().zip(factors).filter(|(_, by)| *by != 0.0) {
+                    let Some(k) = place else { continue };
+                    let values = table.iter().skip(k).step_by(own.len());
+                    part.iter_mut().zip(values).for_each(|(out, value)| *out = factor * value);
+                }
+                columns.push(column);
+            }
+        }
+        Ok(Some(both))
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {

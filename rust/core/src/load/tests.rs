@@ -13,7 +13,7 @@ use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::index::ListIndex;
 use crate::numbers::ratio::SpeedRatio;
 use crate::pressure::{Cycle, Given};
-use crate::readings::amplitude::wrenches;
+use crate::readings::amplitude::SourceAmplitudes;
 use crate::source::over_angle::{AngleBlock, Columns, Quantities};
 use crate::source::{self, GAS as GAS_NAME};
 use crate::wrench::Wrench;
@@ -229,9 +229,9 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
         sum.source.over_angle(&sum.loads, &block, wanted, factor, &mut columns).unwrap();
     }
     let orders: Vec<Order> = (1..400).map(|halves| Order::from_halves(halves).unwrap()).collect();
-    let by_orders =
-        wrenches(&loads, (&loads.sources, &KnownSeries::default()), true, &orders, &Cancel::new())
-            .unwrap();
+    let amplitudes = SourceAmplitudes::new(&loads.sources, true, &orders, &Cancel::new()).unwrap();
+    let wrenches = amplitudes.wrenches(&loads, &loads.list, true, &orders, &Cancel::new()).unwrap();
+    let by_orders = (wrenches, amplitudes.means(&loads, &loads.list));
     let firing = [10.0, 130.0 + 360.0, 255.0];
     let lengths = [(0.05, 0.15), (0.04, 0.12), (0.05, 0.15)];
     for (k, &theta) in degrees.iter().enumerate() {
@@ -433,8 +433,8 @@ fn sizes_are_sums_of_terms() {
     let of = |order: u32, planar, roll| {
         let terms = sums(&loads, order, false);
         let found = |harmonic| terms.iter().find(|term| term.harmonic == harmonic).unwrap();
-        let [force, moment] = found(planar).planar();
-        [force.size, moment.size, found(roll).roll.size]
+        let [force, moment] = found(planar).planar(1.0);
+        [force.bound, moment.bound, found(roll).roll.size]
     };
     let near = |found: [f64; 3], expected: [f64; 3]| {
         found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15)

@@ -20,18 +20,17 @@ use std::fmt::Debug;
 use std::ptr;
 use std::sync::Arc;
 
-use ndarray::Array2;
-
 use self::cylinder::{Cylinder, NEVER_LEANS};
 use self::exact::{ExactHarmonic, MotionKey};
 use self::harmonics::rod::TorqueHarmonics;
-use self::harmonics::table::centred_table;
+use self::harmonics::table;
 use self::motion::{CrankPosition, Cranks, Motion, MotionColumns, Swing};
 use self::scotch_yoke::ScotchYoke;
 use self::slider_crank::SliderCrank;
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 
@@ -110,14 +109,25 @@ pub trait Mechanism: Debug + Send + Sync + Any {
         self.lengths().mechanism_with(rod_ratio, pin_offset)
     }
 
-    /// Real amplitudes of the force at many rod ratios (rows), where they are evaluated side by side.
-    fn force_at_ratios(
+    /// Amplitudes at many rod ratios (rows) and some orders, where they are evaluated side by side: real ones of the
+    /// force, or imaginary ones of the torque on the block, of which that on the crank is the negative.
+    fn at_rod_ratios(
         &self,
+        of: HarmonicsOf,
         rod_ratios: &[f64],
         orders: &[u32],
         cancel: &Cancel,
-    ) -> Option<Result<Array2<f64>>> {
-        (self.offset() == 0.0).then(|| centred_table(rod_ratios, orders, cancel))
+    ) -> Result<Option<Vec<f64>>> {
+        if self.offset() != 0.0 || of == HarmonicsOf::SwingTorque {
+            return Ok(None);
+        }
+        let mut values = memory::zeros(rod_ratios.len() * orders.len())?;
+        if of == HarmonicsOf::Force {
+            table::write_centred(rod_ratios, orders, None, &mut values, cancel)?;
+        } else {
+            table::write_centred_roll(rod_ratios, orders, &mut values, cancel)?;
+        }
+        Ok(Some(values))
     }
 
     /// Whether every order grows with the rod ratio from 0 to its own.

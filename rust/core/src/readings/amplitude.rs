@@ -13,27 +13,10 @@ use crate::numbers::index::{List, ListIndex};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::source::{Column, Source, TorqueAmplitudes};
-use crate::wrench::Wrench;
+use crate::wrench::{Wrench, rounding};
 
 /// Mean torques of each group on the block and on the main crank.
 pub(crate) type Means = List<GroupIndex, [f64; 2]>;
-
-/// Wrenches of the given orders, in their order and of each group of the loads, over what the group scales
-/// with, and the mean torques of each group; what vanishes to within rounding is zero.
-///
-/// Torque is zero where it is not wanted; a spectrum of forces does not determine it. `sources` are those
-/// of the loads, whose series may be known.
-pub(crate) fn wrenches(
-    loads: &Scene,
-    (sources, known): (&Sources, &KnownSeries),
-    torque: bool,
-    orders: &[Order],
-    cancel: &Cancel,
-) -> Result<(Vec<Wrench>, Means)> {
-    let amplitudes = SourceAmplitudes::of_known(sources, known, torque, orders, cancel)?;
-    let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
-    Ok((wrenches, amplitudes.means(loads, &loads.list)))
-}
 
 /// Amplitudes of some sources at some orders.
 pub(crate) struct SourceAmplitudes {
@@ -55,14 +38,21 @@ pub(crate) struct Amplitude {
 }
 
 impl SourceAmplitudes {
+    /// Torque is zero where it is not wanted; a spectrum of forces does not determine it.
     pub fn new(sources: &Sources, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
-        Self::of_known(sources, &KnownSeries::default(), torque, orders, cancel)
+        Self::of_known((sources, &KnownSeries::default()), torque, orders, cancel)
+    }
+
+    /// All 1: sums are those of weights.
+    pub fn ones(sources: &Sources, orders: &[Order]) -> Self {
+        let ones = || vec![Complex64::ONE; orders.len()]; // bounded: by HIGHEST_ORDER
+        let torque = |_: &_| Some(TorqueAmplitudes::shared(&ones(), 0.0, [1.0; 2]));
+        Self { force: sources.map_to(|_| ones()), torque: sources.map_to(torque) }
     }
 
     /// Of sources whose series are known, as far as they are.
-    fn of_known(
-        sources: &Sources,
-        known: &KnownSeries,
+    pub fn of_known(
+        (sources, known): (&Sources, &KnownSeries),
         torque: bool,
         orders: &[Order],
         cancel: &Cancel,
@@ -87,7 +77,8 @@ impl SourceAmplitudes {
         })
     }
 
-    /// Wrenches of some of an engine's loads at the orders of these amplitudes; as [`wrenches`].
+    /// Wrenches of some of an engine's loads at the orders of these amplitudes, in their order and of each group,
+    /// over what the group scales with; what vanishes to within rounding is zero.
     pub fn wrenches(
         &self,
         loads: &Scene,
@@ -106,24 +97,26 @@ impl SourceAmplitudes {
             let planar =
                 self.force.iter().any(|force| force.get(k).is_some_and(|&a| a != Complex64::ZERO));
             let wanted = Wanted { planar, roll: torque, by_bank: false };
+            let rounding = counts.map(|count| rounding(count, order.number()));
             let first = wrenches.len();
             wrenches.resize(first + groups, Wrench::default());
             let of_order = &mut wrenches[first..];
             for term in superpose(&phasors, some, order, wanted) {
                 let amplitude = self.of(term.harmonic, k);
-                let [force, moment] = term.planar();
+                let [force, moment] = term.planar(rounding[0]);
                 let wrench = &mut of_order[loads.group_of[term.harmonic.source].position()];
                 wrench.force.add_scaled(&force, amplitude.force);
                 wrench.moment.add_scaled(&moment, amplitude.force);
                 let torque = &mut wrench.torque;
                 torque.roll += term.roll.value * amplitude.roll;
                 torque.crank += term.roll.value * amplitude.crank;
-                for (size, of) in torque.sizes.iter_mut().zip([amplitude.roll, amplitude.crank]) {
-                    *size += term.roll.size * of.norm();
+                let size = term.roll.size * rounding[1];
+                for (bound, of) in torque.bounds.iter_mut().zip([amplitude.roll, amplitude.crank]) {
+                    *bound += size * of.norm();
                 }
             }
             for wrench in of_order {
-                *wrench = wrench.snapped(counts, order.number());
+                *wrench = wrench.snapped();
             }
         }
         Ok(wrenches)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{GroupIndex, Load, Scene, count};
+use crate::load::{GroupIndex, Scene};
 pub use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -15,7 +15,7 @@ use crate::numbers::order::Order;
 use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
 use crate::readings::quantity::Part;
-use crate::wrench::{Planar, Torque, Wrench, rounding};
+use crate::wrench::{Planar, Torque, Wrench};
 
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,14 +65,13 @@ pub struct Balance {
     parts: Vec<Wrench>,
     /// Orders evaluated that are not among them, and their wrenches.
     left: Vec<(Order, OfOrder)>,
-    /// Mean torques of each part on the block and on the crank.
+    /// Mean torques on the block and on the crank, and of each part.
+    mean: [f64; 2],
     means: Vec<[f64; 2]>,
     /// Bounds of what the orders left out add at any crank angle; 0 for orders that were given.
     pub error_bound: ErrorBounds,
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
-    /// Numbers of loads that have a force, and of all, on which rounding depends.
-    counts: [usize; 2],
 }
 
 /// Wrench of an order at a speed, and its parts; none of a single one.
@@ -98,11 +97,6 @@ impl ErrorBounds {
     #[must_use]
     pub fn values(self) -> [f64; 3] {
         [self.force, self.moment, self.torque]
-    }
-
-    /// What an order adds at most.
-    pub(super) fn of(Wrench { force, moment, torque }: &Wrench) -> Self {
-        Self::from([force.peak(), moment.peak(), torque.peak()])
     }
 
     /// The larger of both.
@@ -224,6 +218,7 @@ impl Balance {
             names: vec![name.into()],
             parts: Vec::new(),
             left: self.left.iter().map(of_left).collect(),
+            mean: self.mean(part),
             means: vec![self.mean(part)],
             ..*self
         }
@@ -246,19 +241,17 @@ impl Balance {
         }
     }
 
-    /// Of wrenches of some of an engine's loads, by order and group, at a speed, rad/s.
+    /// Of wrenches of an engine's loads, by order and group, at a speed, rad/s.
     pub(super) fn of(
         loads: &Scene,
-        some: &[Load],
         orders: Vec<Order>,
         wrenches: &[Wrench],
         means: &List<GroupIndex, [f64; 2]>,
         omega: f64,
     ) -> Result<Self> {
-        let counts = [false, true].map(|torque| count(some, torque));
         let names = loads.names();
         let (mut wholes, mut parts) = (memory::with_capacity(orders.len())?, Vec::new());
-        let mut of_names = vec![[0.0; 2]; names.len()];
+        let (mut whole, mut of_names) = ([0.0; 2], vec![[0.0; 2]; names.len()]);
         let of_groups: Vec<(usize, f64)> = loads
             .groups
             .iter()
@@ -267,25 +260,25 @@ impl Balance {
                 (name, group.scaling.factor(omega))
             })
             .collect();
-        for (&(name, factor), mean) in of_groups.iter().zip(means) {
-            for (sum, own) in of_names[name].iter_mut().zip(mean) {
-                *sum += factor * own;
+        for (&(name, factor), own) in of_groups.iter().zip(means) {
+            for on in 0..2 {
+                whole[on] += factor * own[on];
+                of_names[name][on] += factor * own[on];
             }
         }
         if let [(_, factor)] = of_groups[..] {
             wholes.extend(wrenches.iter().map(|wrench| wrench.scaled(factor)));
         } else {
             parts = memory::with_capacity(orders.len() * names.len())?;
-            for (order, of_order) in orders.iter().zip(wrenches.chunks(of_groups.len())) {
-                let first = parts.len();
+            for of_order in wrenches.chunks(of_groups.len()) {
+                let (first, mut whole) = (parts.len(), Wrench::default());
                 parts.resize(first + names.len(), Wrench::default());
                 for (&(name, factor), wrench) in of_groups.iter().zip(of_order) {
-                    let part: &mut Wrench = &mut parts[first + name];
-                    *part = part.plus(&wrench.scaled(factor));
+                    let (part, scaled) = (&mut parts[first + name], wrench.scaled(factor));
+                    *part = Wrench::plus(part, &scaled);
+                    whole = whole.plus(&scaled);
                 }
-                let sum = |sum: Wrench, part: &Wrench| sum.plus(part);
-                let whole = parts[first..].iter().fold(Wrench::default(), sum);
-                wholes.push(whole.snapped(counts, order.number()));
+                wholes.push(whole.snapped());
             }
         }
         Ok(Self {
@@ -295,10 +288,10 @@ impl Balance {
             names,
             parts,
             left: Vec::new(),
+            mean: whole,
             means: of_names,
             error_bound: ErrorBounds::default(),
             has_torque: true,
-            counts,
         })
     }
 
@@ -332,7 +325,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of force or moment.
     #[must_use]
     pub fn zero_bound(&self, vector: Vector, k: usize) -> f64 {
-        self.planar(vector, k).size * rounding(self.counts[0], self.orders[k].number())
+        self.planar(vector, k).bound
     }
 
     /// A part of the torques of the k-th order.
@@ -344,16 +337,16 @@ impl Balance {
     /// Mean torques of a part on the block and on the crank.
     #[must_use]
     pub fn mean(&self, part: Part) -> [f64; 2] {
-        let own = self.names.iter().zip(&self.means).filter(|(name, _)| part.has(name));
-        own.fold([0.0; 2], |[roll, crank], (_, mean)| [roll + mean[0], crank + mean[1]])
+        let Part::Of(name) = part else { return self.mean };
+        let own = self.names.iter().position(|own| **own == *name);
+        own.map_or([0.0; 2], |own| self.means[own])
     }
 
     /// Bounds of the rounding errors of the k-th order of a part of the torques, on the block and on the
     /// crank.
     #[must_use]
     pub fn torque_zero_bounds(&self, part: Part, k: usize) -> [f64; 2] {
-        let rounding = rounding(self.counts[1], self.orders[k].number());
-        self.torque(part, k).sizes.map(|size| size * rounding)
+        self.torque(part, k).bounds
     }
 
     /// Peak phasors along (about) x and y of the k-th order.

@@ -1,24 +1,48 @@
-//! A few orders that reach a tolerance, and the bound of what they leave out: of balances and of sweeps.
+//! A few orders that reach a tolerance, and the bound of what they leave out: of an engine at one point, or of some
+//! at all points of a sweep.
 //!
 //! What is left out is at most the sum of the sizes of its orders, |forward| + |backward| after the
 //! layout's cancellations. Orders are evaluated up to where all above them are negligible, and that
 //! rest is bounded in closed form; so the bound is loose only where the orders left out do not peak
 //! together.
+//!
+//! At every bank angle an order is at most the sum of what each bank makes of it, and what belongs to none. Loads
+//! whose amplitudes no axis varies are summed first, so that what they cancel stays cancelled; those of the others
+//! count with a bound over the axes, |amplitude| at most, times the sum of their weights:
+//!
+//! - Force without offset: √(1 − λ² sin²θ) is a power series in λ² whose terms give each order one
+//!   sign, so that every |aₙ| is largest at the largest λ.
+//! - Torque of masses without offset: half the derivative of x′². Odd orders are differences of two
+//!   neighbouring orders of h′, of opposite signs, which grow with λ. With q = p² order 2 is −½(1 + q²),
+//!   order 2j above is ½(1 − q²)q^{j−1} up to factors of n, which grows up to q² = (j − 1)/(j + 1), or
+//!   λ = 0.96 for order 4 and beyond that for others.
+//! - Torque of rods without offset: φ' = λ cos θ/√(1 − λ² sin²θ) is a power series in λ whose terms give
+//!   each order one sign; it makes the odd orders. The even ones are half the derivative of φ'², whose
+//!   order 2j is 2qʲ(1 − q)/(1 + q), which grows up to j(1 − q²) = 2q, or λ = 0.91 for order 2 and beyond
+//!   that for others.
+//! - Any other: the bound of the tail that begins with the order, which grows with λ and with the
+//!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
+//!   Orders 1 and 2 of torques are kept where the layout has them.
+//! - Torque of pressure: the largest of the points, each evaluated.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::load::{
-    Group, GroupIndex, KnownSeries, LargestWeights, Load, Scene, SourceIndex, Sources, count,
+    Group, GroupIndex, Harmonic, KnownSeries, LargestWeights, Load, Scene, SourceIndex, Sources,
+    count, find_or_push,
 };
+use crate::mechanism::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, distinct};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
-use crate::readings::amplitude::wrenches;
+use crate::readings::amplitude::{Means, SourceAmplitudes};
 use crate::readings::balance::{Balance, ErrorBounds, Orders};
-use crate::source::{Scale, Series, Source, Tail, UpTo, series};
+use crate::source::{
+    Column, Point, Scale, Series, Source, Tail, UpTo, amplitudes, at_point, series,
+};
 use crate::wrench::Wrench;
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
@@ -38,7 +62,7 @@ pub(crate) struct Chosen {
     /// Wrenches of each order and group.
     wrenches: Vec<Wrench>,
     /// Mean torques of each group on the block and on the crank.
-    means: List<GroupIndex, [f64; 2]>,
+    means: Means,
     /// Bounds of what all orders left out add, of each group.
     left_out: List<GroupIndex, ErrorBounds>,
 }
@@ -46,97 +70,237 @@ pub(crate) struct Chosen {
 impl Chosen {
     /// What the orders that are left out add at most at some speeds, rad/s.
     pub fn error_bound(&self, loads: &Scene, omegas: &[f64]) -> ErrorBounds {
-        let at = |&omega: &f64| bounds(&self.left_out, &loads.groups, omega);
-        omegas.iter().map(at).fold(ErrorBounds::default(), ErrorBounds::max)
+        bounds(&self.left_out, &loads.groups, omegas)
     }
 
     /// Orders that are kept, and the wrenches of each group.
     pub fn kept(&self) -> impl Iterator<Item = (Order, &[Wrench])> {
-        let groups = self.left_out.len();
-        let all = self.orders.iter().zip(&self.kept).zip(self.wrenches.chunks(groups));
-        all.filter(|((_, kept), _)| **kept).map(|((order, _), wrenches)| (*order, wrenches))
+        self.all().filter(|(_, kept, _)| *kept).map(|(order, _, wrenches)| (order, wrenches))
     }
 
     /// Orders that were evaluated and left out, of those that are not zero.
     pub fn omitted(&self) -> Vec<Order> {
-        let groups = self.left_out.len();
-        let all = self.orders.iter().zip(&self.kept).zip(self.wrenches.chunks(groups));
-        let left = all.filter(|((_, kept), of)| !**kept && !of.iter().all(Wrench::is_zero));
-        left.map(|((order, _), _)| *order).collect()
+        let left = self.all().filter(|(_, kept, of)| !kept && !of.iter().all(Wrench::is_zero));
+        left.map(|(order, ..)| order).collect()
+    }
+
+    /// Orders that were evaluated, whether they are kept, and the wrenches of each group.
+    fn all(&self) -> impl Iterator<Item = (Order, bool, &[Wrench])> {
+        let all = self.orders.iter().zip(&self.kept).zip(self.wrenches.chunks(self.left_out.len()));
+        all.map(|((order, kept), wrenches)| (*order, *kept, wrenches))
     }
 
     /// The balance at a speed, rad/s.
     pub fn at_speed(&self, loads: &Scene, omega: f64) -> Result<Balance> {
-        let Self { orders, kept, wrenches, means, left_out } = self;
-        let all = Balance::of(loads, &loads.list, orders.clone(), wrenches, means, omega)?;
-        Ok(all.keep(kept, bounds(left_out, &loads.groups, omega)))
+        let all = Balance::of(loads, self.orders.clone(), &self.wrenches, &self.means, omega)?;
+        Ok(all.keep(&self.kept, self.error_bound(loads, &[omega])))
     }
 }
 
-/// Bounds at a speed, rad/s, of what groups leave out.
-pub(crate) fn bounds(left_out: &[ErrorBounds], groups: &[Group], omega: f64) -> ErrorBounds {
-    let groups = left_out.iter().zip(groups);
-    groups.fold(ErrorBounds::default(), |sum, (lost, group)| {
-        sum.plus(lost.times(group.scaling.factor(omega)))
-    })
+/// Bounds of what groups leave out at some speeds, rad/s.
+pub(crate) fn bounds(left_out: &[ErrorBounds], groups: &[Group], omegas: &[f64]) -> ErrorBounds {
+    let at = |&omega: &f64| {
+        let groups = left_out.iter().zip(groups);
+        groups.fold(ErrorBounds::default(), |sum, (lost, group)| {
+            sum.plus(lost.times(group.scaling.factor(omega)))
+        })
+    };
+    omegas.iter().map(at).fold(ErrorBounds::default(), ErrorBounds::max)
 }
 
-/// An engine whose orders are chosen: its loads, their sources, of which tolerances are parts, and the same where
-/// harmonics decrease most slowly.
+/// An engine whose orders are chosen, at some points.
 pub(crate) struct Candidate<'a> {
     pub loads: &'a Scene,
+    /// Sources of its loads, of which tolerances are parts.
     pub own: Cow<'a, Sources>,
-    pub sources: Cow<'a, Sources>,
+    /// The same where harmonics decrease most slowly.
+    pub slowest: Cow<'a, Sources>,
+    /// Number of points, and what each replaces of these.
+    pub points: (usize, &'a dyn Fn(usize) -> Point<'static>),
+    /// Whether its banks turn.
+    pub by_bank: bool,
 }
 
-/// The choice of a few orders for some engines, whose sizes are still to be evaluated.
+/// Loads that are summed before they are bounded: of each bank, and of what varies of each amplitude.
+type Summand = ((Option<usize>, Option<Harmonic>), Vec<Load>);
+
+/// Wrenches of each order and group, and means of each group.
+type Summed = (Vec<Wrench>, Means);
+
+/// A few orders for some engines.
 pub(crate) struct Choice {
-    /// Orders to evaluate, ascending.
+    /// Orders evaluated, ascending.
     pub orders: Vec<Order>,
-    /// Series of the sources of each engine up to these orders.
-    pub series: Vec<KnownSeries>,
-    /// Bounds of what orders above those add, of each engine and group.
-    pub rest: Vec<List<GroupIndex, ErrorBounds>>,
-    /// What may be left out, of each engine and group.
-    allowed: Vec<f64>,
+    /// Which of them are kept, and which are zero.
+    pub kept: Vec<bool>,
+    pub is_zero: Vec<bool>,
+    /// Bounds of what each engine leaves out, by group.
+    pub left_out: Vec<List<GroupIndex, ErrorBounds>>,
+    /// Wrenches and means of the last engine, of all of its loads that are summed before they are bounded.
+    summed: Summed,
 }
 
 impl Choice {
-    /// Among the orders that leave out at most `rtol`.
+    /// Among the orders that leave out at most `rtol` at any point of any engine.
     pub fn new(rtol: f64, candidates: &[Candidate], torque: bool, cancel: &Cancel) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
         let (mut orders, mut series, mut allowed) = (Vec::new(), Vec::new(), Vec::new());
-        for Candidate { loads, own, sources } in candidates {
+        for Candidate { loads, own, slowest, .. } in candidates {
             cancel.check()?;
             let scales = scales(loads, own, torque);
-            let known = self::candidates(rtol, &scales, loads, sources, torque, cancel)?;
+            let known = self::candidates(rtol, &scales, loads, slowest, torque, cancel)?;
             orders.extend(known.iter().flat_map(|series| &series.orders));
             series.push(known);
             allowed.extend(scales.iter().flat_map(|scale| scale.allowed(rtol)));
         }
         orders.sort_unstable();
         orders.dedup();
-        let mut rest = Vec::new();
-        for (Candidate { loads, sources, .. }, series) in candidates.iter().zip(&mut series) {
-            let rests = rests(loads, sources, series, &orders, torque, cancel)?;
-            rest.push(sum_of_rests(loads, &rests, torque));
+        let (mut lost, mut summed) = (Vec::new(), Default::default());
+        // By order, engine and group.
+        let mut sizes: Vec<Vec<f64>> = vec![Vec::new(); orders.len()];
+        for (candidate, series) in candidates.iter().zip(&mut series) {
+            cancel.check()?;
+            let rest = candidate.rest(series, &orders, torque, cancel)?;
+            lost.extend(rest.iter().flat_map(|sums| sums.values()));
+            let own;
+            (own, summed) = candidate.sizes(series, &orders, torque, cancel)?;
+            for (all, own) in sizes.iter_mut().zip(own.chunks(candidate.loads.groups.len())) {
+                all.extend(
+                    own.iter().flat_map(|[force, moment, roll, crank]| {
+                        [*force, *moment, roll.max(*crank)]
+                    }),
+                );
+            }
         }
-        Ok(Self { orders, series, rest, allowed })
+        let kept = few(&sizes, &allowed, &mut lost);
+        let mut lost = lost.as_chunks().0.iter().map(|&lost| ErrorBounds::from(lost));
+        let of = |candidate: &Candidate| lost.by_ref().take(candidate.loads.groups.len()).collect();
+        let left_out = candidates.iter().map(of).collect();
+        let is_zero = sizes.iter().map(|sizes| sizes.iter().all(|size| *size == 0.0)).collect();
+        Ok(Self { orders, kept, is_zero, left_out, summed })
+    }
+}
+
+impl Candidate<'_> {
+    /// An engine as it is.
+    fn alone(loads: &Scene) -> Candidate<'_> {
+        let own = Cow::Borrowed(&loads.sources);
+        let points: (usize, &dyn Fn(usize) -> Point<'static>) = (1, &|_| Point::default());
+        Candidate { loads, slowest: own.clone(), own, points, by_bank: false }
     }
 
-    /// Which orders are kept, of sizes of each order, engine and group, and bounds of what each engine
-    /// leaves out, by group.
-    pub fn few(&self, sizes: &[ErrorBounds]) -> (Vec<bool>, Vec<List<GroupIndex, ErrorBounds>>) {
-        let flat = |sums: &[ErrorBounds]| -> Vec<f64> {
-            sums.iter().flat_map(|sums| sums.values()).collect()
+    /// Whether the points vary a source.
+    fn varies(&self, source: &Arc<dyn Source>) -> Result<bool> {
+        let (count, at) = self.points;
+        Ok(count > 1 && source.at_point(&at(0))?.is_some())
+    }
+
+    /// Bounds of what orders above those evaluated add at any point: of sources that have no bound for all of them
+    /// the largest.
+    fn rest(
+        &self,
+        known: &mut KnownSeries,
+        orders: &[Order],
+        torque: bool,
+        cancel: &Cancel,
+    ) -> Result<List<GroupIndex, ErrorBounds>> {
+        let is_evaluated = |source: &Arc<dyn Source>| -> Result<bool> {
+            let is_bounded = || source.sizes_up_to_own(Column::Roll, &[], cancel);
+            Ok(self.varies(source)? && is_bounded()?.is_none())
         };
-        let sizes = flat(sizes);
-        let mut lost: Vec<f64> =
-            self.rest.iter().flatten().flat_map(|sums| sums.values()).collect();
-        let of_orders: Vec<&[f64]> = sizes.chunks(self.allowed.len()).collect();
-        let kept = few(&of_orders, &self.allowed, &mut lost);
-        let mut lost = lost.as_chunks().0.iter().map(|&lost| ErrorBounds::from(lost));
-        (kept, self.rest.iter().map(|of| lost.by_ref().take(of.len()).collect()).collect())
+        let (count, at) = self.points;
+        let evaluated: Vec<bool> = self.slowest.iter().map(is_evaluated).collect::<Result<_>>()?;
+        let mut rests = rests(self.loads, &self.slowest, known, orders, torque, cancel)?;
+        let mut most = self.loads.groups.map_to(|_| ErrorBounds::default());
+        for point in 0..if evaluated.contains(&true) { count } else { 1 } {
+            cancel.check()?;
+            let all = self.slowest.iter().zip(rests.iter_mut()).zip(&evaluated);
+            for ((source, own), _) in all.filter(|(_, evaluated)| **evaluated) {
+                let there = at_point(source, &at(point))?;
+                *own = rest(&*there, &mut Series::default(), orders, cancel)?;
+            }
+            let sums = sum_of_rests(self.loads, &rests, torque);
+            most.iter_mut().zip(&sums).for_each(|(most, sum)| *most = most.max(*sum));
+        }
+        Ok(most)
+    }
+
+    /// Sizes of each order and group at any point and bank angle at most, of force, moment and both torques; and
+    /// wrenches and means of the loads that are summed first.
+    fn sizes(
+        &self,
+        known: &KnownSeries,
+        orders: &[Order],
+        torque: bool,
+        cancel: &Cancel,
+    ) -> Result<(Vec<[f64; 4]>, Summed)> {
+        let Self { loads, slowest, by_bank, .. } = self;
+        let varies: List<SourceIndex, bool> =
+            slowest.iter().map(|source| self.varies(source)).collect::<Result<_>>()?;
+        let mut summands: Vec<Summand> = vec![((None, None), Vec::new())];
+        for load in &loads.list {
+            let bank = load.place.bank.filter(|_| *by_bank);
+            let mut add = |harmonic: Option<Harmonic>, load: Load| {
+                let is_such = |(key, _): &Summand| *key == (bank, harmonic);
+                let new = || ((bank, harmonic), Vec::new());
+                find_or_push(&mut summands, is_such, new).1.push(load);
+            };
+            if !varies[load.source] {
+                add(None, *load);
+                continue;
+            }
+            for column in [Column::Force, Column::Roll] {
+                let (mut own, harmonic) = (*load, Harmonic { source: load.source, column });
+                match column {
+                    Column::Force => own.parts.roll = false,
+                    Column::Roll => own.parts.force = None,
+                }
+                if own.parts.roll || own.parts.force.is_some() {
+                    add(Some(harmonic), own);
+                }
+            }
+        }
+        let amplitudes = SourceAmplitudes::of_known((slowest, known), torque, orders, cancel)?;
+        let ones = SourceAmplitudes::ones(slowest, orders);
+        let (mut sizes, mut first) = (vec![[0.0; 4]; orders.len() * loads.groups.len()], None);
+        for ((_, harmonic), own) in summands {
+            let factors = harmonic.map(|of| self.largest(of, orders, cancel)).transpose()?;
+            let by = if factors.is_some() { &ones } else { &amplitudes };
+            let wrenches = by.wrenches(loads, &own, torque, orders, cancel)?;
+            for (k, (sums, wrench)) in sizes.iter_mut().zip(&wrenches).enumerate() {
+                let Wrench { force, moment, torque } = wrench;
+                let own = [force.peak(), moment.peak(), torque.roll.norm(), torque.crank.norm()];
+                for (which, (sum, size)) in sums.iter_mut().zip(own).enumerate() {
+                    let factor = |of: &[Vec<f64>; 2]| of[which / 3][k / loads.groups.len()];
+                    *sum += factors.as_ref().map_or(size, |of| times(size, factor(of)));
+                }
+            }
+            first.get_or_insert(wrenches);
+        }
+        let means = amplitudes.means(loads, &loads.list);
+        Ok((sizes, (first.unwrap_or_default(), means)))
+    }
+
+    /// Bounds of an amplitude over the points, by order, for the torque on the block and on the crank.
+    fn largest(
+        &self,
+        Harmonic { source, column }: Harmonic,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<[Vec<f64>; 2]> {
+        let (source, (count, at)) = (&self.slowest[source], self.points);
+        if let Some(bounds) = source.sizes_up_to_own(column, orders, cancel)? {
+            return Ok(bounds);
+        }
+        let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
+        for point in 0..count {
+            let there = at_point(source, &at(point))?;
+            let TorqueHarmonics { roll, crank } = amplitudes(&*there, column, orders, cancel)?;
+            for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
+                sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
+            }
+        }
+        Ok(sizes)
     }
 }
 
@@ -162,8 +326,9 @@ fn evaluated_anew(loads: &Scene, orders: &Orders, torque: bool, cancel: &Cancel)
     match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let sources = (&loads.sources, &KnownSeries::default());
-            let (wrenches, means) = wrenches(loads, sources, torque, orders, cancel)?;
+            let amplitudes = SourceAmplitudes::new(&loads.sources, torque, orders, cancel)?;
+            let wrenches = amplitudes.wrenches(loads, &loads.list, torque, orders, cancel)?;
+            let means = amplitudes.means(loads, &loads.list);
             let left_out = loads.groups.map_to(|_| ErrorBounds::default());
             let kept = vec![true; orders.len()];
             Ok(Chosen { orders: orders.clone(), kept, wrenches, means, left_out })
@@ -174,15 +339,9 @@ fn evaluated_anew(loads: &Scene, orders: &Orders, torque: bool, cancel: &Cancel)
 
 /// The orders of an engine that leave out at most `rtol`.
 pub(crate) fn within(rtol: f64, loads: &Scene, torque: bool, cancel: &Cancel) -> Result<Chosen> {
-    let own = Cow::Borrowed(&loads.sources);
-    let alone = Candidate { loads, sources: own.clone(), own };
-    let choice = Choice::new(rtol, &[alone], torque, cancel)?;
-    let sources = (&loads.sources, &choice.series[0]);
-    let (wrenches, means) = wrenches(loads, sources, torque, &choice.orders, cancel)?;
-    let sizes: Vec<ErrorBounds> = wrenches.iter().map(ErrorBounds::of).collect();
-    let (kept, mut left_out) = choice.few(&sizes);
-    let left_out = left_out.swap_remove(0);
-    Ok(Chosen { orders: choice.orders, kept, wrenches, means, left_out })
+    let Choice { orders, kept, mut left_out, summed: (wrenches, means), .. } =
+        Choice::new(rtol, &[Candidate::alone(loads)], torque, cancel)?;
+    Ok(Chosen { orders, kept, wrenches, means, left_out: left_out.swap_remove(0) })
 }
 
 /// Orders of which each cylinder and each further load alone leaves out at most `rtol`, as if nothing
@@ -204,15 +363,14 @@ pub(crate) fn within_each(
         let own = others.iter().zip(&by_origin).filter(|(_, of)| **of == origin);
         let alone = Scene { list: own.map(|(load, _)| *load).collect(), ..loads.clone() };
         let chosen = within(rtol, &alone, torque, cancel)?;
-        let kept = chosen.orders.iter().zip(&chosen.kept).filter(|(_, kept)| **kept);
-        orders.extend(kept.map(|(order, _)| *order));
+        orders.extend(chosen.kept().map(|(order, _)| order));
         for (sum, lost) in left_out.iter_mut().zip(&chosen.left_out) {
             *sum = sum.plus(*lost);
         }
     }
     orders.sort_unstable();
     orders.dedup();
-    Ok((orders, bounds(&left_out, &loads.groups, omega)))
+    Ok((orders, bounds(&left_out, &loads.groups, &[omega])))
 }
 
 /// Drops orders from the smallest up while every sum stays within what it may lose.
@@ -298,7 +456,7 @@ fn counts(source: &dyn Source, torque: bool) -> bool {
 
 /// Bounds of what orders beyond those evaluated add to each source in place of one of the loads; series that do
 /// not reach the last of them are continued.
-pub(crate) fn rests(
+fn rests(
     loads: &Scene,
     sources: &Sources,
     known: &mut KnownSeries,
@@ -318,7 +476,7 @@ pub(crate) fn rests(
 
 /// Bounds of what orders of a source beyond those evaluated add; of its series as far as it is known, which is
 /// continued up to the last of them.
-pub(crate) fn rest(
+fn rest(
     source: &dyn Source,
     known: &mut Series,
     evaluated: &[Order],
@@ -342,7 +500,7 @@ pub(crate) fn rest(
 
 /// Bounds over what groups scale with of what the rests of sources add to force, moment and torque, as if nothing
 /// cancelled.
-pub(crate) fn sum_of_rests(
+fn sum_of_rests(
     loads: &Scene,
     rests: &List<SourceIndex, Tail>,
     torque: bool,
@@ -364,7 +522,7 @@ pub(crate) fn sum_of_rests(
 }
 
 /// Zero times infinity is zero.
-pub(crate) fn times(weight: f64, bound: f64) -> f64 {
+fn times(weight: f64, bound: f64) -> f64 {
     if weight == 0.0 || bound == 0.0 { 0.0 } else { weight * bound }
 }
 
@@ -508,6 +666,93 @@ mod tests {
         assert!(gas[2] > 0.0 && found.1[GroupIndex::new(1)].allowed(0.1)[2] > 0.0);
     }
 
+    /// Bounds of a gear's harmonics over the axes, and the largest of those at any point.
+    fn bounds_and_largest(
+        ratio: SpeedRatio,
+        [rod_ratios, pin_offsets]: [Option<Vec<f64>>; 2],
+        kind: usize,
+    ) -> [Vec<[f64; 2]>; 2] {
+        let (tdc, bank, cancel) = (Angle::ZERO, Angle::ZERO, Cancel::new());
+        let cylinder = Cylinder::new(0.05, 0.2, 0.5, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(1e-3).unwrap();
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let cranks = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio }];
+        let engine = Engine::new("", "", vec![place]).unwrap().with_cranks(cranks, vec![1]);
+        let loads = Scene::anew(&engine.unwrap(), 0.0);
+        let orders = Order::all_whole(&(1..=24).collect::<Vec<u32>>()).unwrap();
+        let (source, column) = [(0, Column::Force), (0, Column::Roll), (1, Column::Roll)][kind];
+        let harmonic = Harmonic { source: SourceIndex::new(source), column };
+        let axes = [&rod_ratios, &pin_offsets];
+        let [ratios, offsets] = axes.map(|axis| axis.as_ref().map_or(1, Vec::len));
+        let at = |point: usize| Point {
+            rod_ratio: rod_ratios.as_ref().map(|all| all[point / offsets]),
+            pin_offset: pin_offsets.as_ref().map(|all| all[point % offsets]),
+            cycles: None,
+        };
+        let largest = |axis: &Option<Vec<f64>>| {
+            axis.iter().flatten().copied().reduce(|a, b| if a.abs() < b.abs() { b } else { a })
+        };
+        let [rod_ratio, pin_offset] = axes.map(largest);
+        let slowest = Point { rod_ratio, pin_offset, cycles: None };
+        let candidate = Candidate {
+            slowest: Cow::Owned(loads.at_point(&slowest).unwrap()),
+            points: (ratios * offsets, &at),
+            ..Candidate::alone(&loads)
+        };
+        let bounds = candidate.largest(harmonic, &orders, &cancel).unwrap();
+        let mut found =
+            bounds.map(|bounds| bounds.into_iter().map(|b| [b, 0.0]).collect::<Vec<_>>());
+        for point in 0..ratios * offsets {
+            let there = at_point(&loads.sources[harmonic.source], &at(point)).unwrap();
+            let TorqueHarmonics { roll, crank } =
+                amplitudes(&*there, column, &orders, &cancel).unwrap();
+            for (found, values) in found.iter_mut().zip([roll, crank]) {
+                found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn harmonics_count_as_no_less_than_at_any_point() {
+        let evenly = |from: f64, to: f64| -> Option<Vec<f64>> {
+            Some((0..=40).map(|k| from + (to - from) * f64::from(k) / 40.0).collect())
+        };
+        let (usual, both_sides) = (evenly(0.05, 0.4), evenly(-0.02, 0.01));
+        // Whether each order is largest at the largest rod ratio: force, torque of masses and of rods.
+        for (ratio, ratios, offsets, grows) in [
+            (1, usual.clone(), None, [true; 3]),
+            (1, evenly(0.8, 0.92), None, [true, true, false]),
+            (1, evenly(0.9, 0.99), None, [true, false, false]),
+            (-2, evenly(0.9, 0.99), None, [true, false, false]),
+            (1, None, both_sides.clone(), [false; 3]),
+            (1, usual.clone(), evenly(0.0, 0.02), [false; 3]),
+            (5, usual, both_sides, [false; 3]),
+        ] {
+            for (kind, grows) in grows.into_iter().enumerate() {
+                for found in bounds_and_largest(
+                    SpeedRatio::whole(ratio),
+                    [ratios.clone(), offsets.clone()],
+                    kind,
+                ) {
+                    let own = i32::unsigned_abs(ratio) as usize;
+                    for (n, &[bound, largest]) in (1..).zip(&found) {
+                        let context = format!("{ratio} {kind} {n}: {bound} {largest}");
+                        assert!(largest <= bound * (1.0 + 1e-12), "{context}");
+                        if grows {
+                            assert!(bound <= largest * (1.0 + 1e-12), "{context}");
+                        } else if n < 3 * own && kind != 0 {
+                            // Of these no growth is known.
+                            assert_eq!(bound, f64::INFINITY, "{context}");
+                        } else if let Some([later, _]) = found.get(n + 2 * own - 1) {
+                            assert!(bound.is_finite() && *later < 0.99 * bound, "{context}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// What is left out of a cylinder on a crank of any speed is what it would leave out on the main one by the
     /// squares of its speed, the torque by the cube, and that of its force at the distance of the axis.
     #[test]
@@ -587,15 +832,15 @@ mod tests {
             for (scale, expected) in scales.into_iter().zip(expected) {
                 assert!((scale - expected).abs() < 1e-15, "{scales:?} {expected}");
             }
-            let sources = (&loads.sources, &KnownSeries::default());
-            let (every, _) = wrenches(&loads, sources, true, &all, &cancel).unwrap();
+            let every = SourceAmplitudes::new(&loads.sources, true, &all, &cancel).unwrap();
+            let every = every.wrenches(&loads, &loads.list, true, &all, &cancel).unwrap();
             for rtol in [0.3, 1e-2, 1e-4, 1e-9] {
                 let chosen = within(rtol, &loads, true, &cancel).unwrap();
                 let kept: Vec<Order> = chosen.kept().map(|(order, _)| order).collect();
                 let mut sums = [0.0; 3];
                 let mut of_kept = Vec::new();
                 for (order, wrench) in all.iter().zip(&every) {
-                    let sizes = ErrorBounds::of(wrench).values();
+                    let sizes = [wrench.force.peak(), wrench.moment.peak(), wrench.torque.peak()];
                     if kept.contains(order) {
                         of_kept.push(sizes);
                     } else {
@@ -628,7 +873,7 @@ mod tests {
         let loads = Scene::anew(&engine, 0.0);
         assert_eq!(loads.groups.len(), 2);
         let of = |k: f64| ErrorBounds { force: k, moment: 2.0 * k, torque: 3.0 * k };
-        let found = bounds(&[of(1.0), of(10.0)], &loads.groups, 5.0).values();
+        let found = bounds(&[of(1.0), of(10.0)], &loads.groups, &[5.0, 2.0]).values();
         let factors = [0, 1].map(|k| loads.groups[GroupIndex::new(k)].scaling.factor(5.0));
         assert_eq!(factors.iter().sum::<f64>(), 26.0);
         let sum = factors[0] + 10.0 * factors[1];

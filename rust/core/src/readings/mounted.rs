@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Group, GroupIndex, Scene, count};
+use crate::load::{Group, GroupIndex, Scene};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
     ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
@@ -25,7 +25,7 @@ use crate::numbers::pool;
 use crate::readings::balance::{ErrorBounds, Orders, angular_speed};
 use crate::readings::choice;
 use crate::source::Scaling;
-use crate::wrench::{Planar, Wrench, rounding, snapped};
+use crate::wrench::{Planar, Wrench, snapped};
 
 /// Points solved between two checks for cancellation.
 const POINTS_PER_TASK: usize = 256;
@@ -57,8 +57,6 @@ pub(crate) struct EngineLoads {
     groups: List<GroupIndex, Group>,
     /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
-    /// Bounds of rounding over the sizes of sums, of planar vectors and of torques, at each order.
-    roundings: Vec<[f64; 2]>,
 }
 
 /// One order at one speed.
@@ -83,10 +81,10 @@ pub enum Derivative {
 }
 
 /// Load of a wrench about the CG: three forces, three moments, zero where they are within rounding.
-fn load(wrench: &Wrench, [of_plane, of_torque]: [f64; 2]) -> ComplexVector6 {
-    let along = |planar: &Planar| planar.xy(planar.size * of_plane);
+fn load(wrench: &Wrench) -> ComplexVector6 {
+    let along = |planar: &Planar| planar.xy(planar.bound);
     let ([force_x, force_y], [pitch, yaw]) = (along(&wrench.force), along(&wrench.moment));
-    let roll = snapped(wrench.torque.roll, wrench.torque.sizes[0] * of_torque);
+    let roll = snapped(wrench.torque.roll, wrench.torque.bounds[0]);
     ComplexVector6::new(force_x, force_y, Complex64::ZERO, pitch, yaw, roll)
 }
 
@@ -111,11 +109,9 @@ impl EngineLoads {
         let loads = Scene::of(engine, Some(cg.z))?;
         let torque = engine.spectrum().is_none();
         let chosen = choice::evaluated(&loads, orders, torque, cancel)?;
-        let counts = [false, true].map(|torque| count(&loads.list, torque));
-        let (mut kept, mut unit, mut roundings) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut kept, mut unit) = (Vec::new(), Vec::new());
         for (order, wrenches) in chosen.kept() {
             kept.push(order);
-            roundings.push(counts.map(|count| rounding(count, order.number())));
             unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
         }
         Ok(Self {
@@ -125,24 +121,22 @@ impl EngineLoads {
             omega,
             groups: loads.groups.clone(),
             unit,
-            roundings,
         })
     }
 
     /// Loads of each order at a speed, rad/s.
     fn at_speed(&self, omega: f64) -> impl Iterator<Item = ComplexVector6> {
         let factors = self.groups.map_to(|group| group.scaling.factor(omega));
-        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.roundings);
-        of_orders.map(move |(of_order, rounding)| {
+        self.unit.chunks(self.groups.len()).map(move |of_order| {
             let scaled =
                 of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
-            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)), *rounding)
+            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)))
         })
     }
 
     /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
     pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
-        let of_order = |((wrenches, order), &rounding): ((&[Wrench], &Order), &[f64; 2])| {
+        let of_order = |(wrenches, order): (&[Wrench], &Order)| {
             let mut sums = [Wrench::default(); 2];
             for (group, wrench) in self.groups.iter().zip(wrenches) {
                 let sum = match group.scaling {
@@ -156,11 +150,11 @@ impl EngineLoads {
                 };
                 *sum = sum.plus(wrench);
             }
-            let [by_square, fixed] = sums.map(|sum| load(&sum, rounding));
+            let [by_square, fixed] = sums.map(|sum| load(&sum));
             Ok([by_square / Complex64::from(order.number().powi(2)), fixed])
         };
         let of_orders = self.unit.chunks(self.groups.len()).zip(&self.orders);
-        of_orders.zip(&self.roundings).map(of_order).collect()
+        of_orders.map(of_order).collect()
     }
 }
 

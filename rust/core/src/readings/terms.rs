@@ -106,7 +106,7 @@ impl<'a> LoadSums<'a> {
         let Self { loads, amplitudes, orders, torque } = self;
         let wrenches = amplitudes.wrenches(loads, own, *torque, orders, cancel)?;
         let means = amplitudes.means(loads, own);
-        let mut sum = Balance::of(loads, own, orders.to_vec(), &wrenches, &means, omega)?;
+        let mut sum = Balance::of(loads, orders.to_vec(), &wrenches, &means, omega)?;
         sum.has_torque = *torque;
         Ok(sum)
     }

@@ -2,13 +2,13 @@
 
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};
-use crate::load::{KnownSeries, Scene};
+use crate::load::Scene;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
-use crate::readings::amplitude::wrenches;
+use crate::readings::amplitude::SourceAmplitudes;
 use crate::readings::balance::{Request, UNIT_RPM, angular_speed};
 use crate::readings::terms::sums_by;
 use crate::source::Scaling;
@@ -54,8 +54,8 @@ pub(crate) fn over_square(
     engine.check_speeds(rpm.as_slice())?;
     let loads = Scene::of(engine, None)?;
     let torque = torque && engine.spectrum().is_none();
-    let (by_group, _) =
-        wrenches(&loads, (&loads.sources, &KnownSeries::default()), torque, &[order], cancel)?;
+    let amplitudes = SourceAmplitudes::new(&loads.sources, torque, &[order], cancel)?;
+    let by_group = amplitudes.wrenches(&loads, &loads.list, torque, &[order], cancel)?;
     let mut sum = Wrench::default();
     for (group, wrench) in loads.groups.iter().zip(&by_group) {
         let factor = match (group.scaling, omega) {

@@ -56,7 +56,9 @@ use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 use crate::numbers::order::Order;
+use crate::numbers::pool;
 use crate::pressure::Cycle;
 
 /// Name of what moving parts make.
@@ -185,6 +187,10 @@ pub struct Point<'a> {
     pub cycles: Option<&'a [Arc<Cycle>]>,
 }
 
+/// Real and imaginary parts of amplitudes at some points, order by order.
+#[doc(hidden)]
+pub type PointColumns = Vec<[Vec<f64>; 2]>;
+
 /// What acts at a place, over the weights of a load.
 ///
 /// A source says what every reading asks of it; none asks which source it is. It has a name, says how it acts,
@@ -260,6 +266,20 @@ pub trait Source: Debug + Send + Sync + Any {
         cancel: &Cancel,
     ) -> Result<Option<[Vec<f64>; 2]>> {
         let _ = (column, orders, cancel);
+        Ok(None)
+    }
+
+    /// Amplitudes at some orders and many rod ratios, where they are evaluated side by side: those of the force
+    /// alone, or of the torques on the block and on the crank.
+    #[doc(hidden)]
+    fn at_rod_ratios(
+        &self,
+        column: Column,
+        rod_ratios: &[f64],
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Option<[PointColumns; 2]>> {
+        let _ = (column, rod_ratios, orders, cancel);
         Ok(None)
     }
 
@@ -374,6 +394,63 @@ pub(crate) fn amplitudes(
         }
         Column::Roll => Ok(source.torque(orders, cancel)?.harmonics),
     }
+}
+
+/// Sources at points that are evaluated side by side where they are integrated.
+const SOURCES_AT_ONCE: usize = 64;
+
+/// Amplitudes of a source at some points: those of the force alone, or of the torques on the block and on the crank.
+pub(crate) fn at_points(
+    source: &Arc<dyn Source>,
+    column: Column,
+    points: &[Point],
+    orders: &[Order],
+    cancel: &Cancel,
+) -> Result<[PointColumns; 2]> {
+    let ratio = |point: &Point| point.rod_ratio.filter(|_| point.pin_offset.is_none());
+    if let Some(ratios) = points.iter().map(ratio).collect::<Option<Vec<f64>>>()
+        && let Some(columns) = source.at_rod_ratios(column, &ratios, orders, cancel)?
+    {
+        return Ok(columns);
+    }
+    let mut both = [PointColumns::new(), PointColumns::new()];
+    for columns in both.iter_mut().take(if column == Column::Roll { 2 } else { 1 }) {
+        *columns = memory::with_capacity(orders.len())?;
+        for _ in orders {
+            columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
+        }
+    }
+    let values = |source: &Arc<dyn Source>| {
+        cancel.check()?;
+        let TorqueHarmonics { roll, crank } = amplitudes(&**source, column, orders, cancel)?;
+        Ok([roll, crank])
+    };
+    let Some(first) = points.first().map(|first| source.at_point(first)).transpose()?.flatten()
+    else {
+        for (columns, values) in both.iter_mut().zip(values(source)?) {
+            for ([re, im], value) in columns.iter_mut().zip(values) {
+                re.fill(value.re);
+                im.fill(value.im);
+            }
+        }
+        return Ok(both);
+    };
+    let (mut first, mut row) = (Some(first), 0);
+    for some in points.chunks(SOURCES_AT_ONCE) {
+        let there = |point| first.take().map_or_else(|| at_point(source, point), Ok);
+        let sources = some.iter().map(there).collect::<Result<Vec<_>>>()?;
+        let integrated = sources.iter().filter(|source| source.is_integrated(orders));
+        let several = integrated.count() > 3;
+        for of_point in pool::map_if(several, cancel, sources, |source| values(&source))? {
+            for (columns, values) in both.iter_mut().zip(of_point) {
+                for ([re, im], value) in columns.iter_mut().zip(values) {
+                    (re[row], im[row]) = (value.re, value.im);
+                }
+            }
+            row += 1;
+        }
+    }
+    Ok(both)
 }
 
 /// Orders of a source, without those that together are rounding.

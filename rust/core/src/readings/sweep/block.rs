@@ -5,7 +5,7 @@ use std::array::from_fn;
 use super::factors::{Coefficients, Padded, Waves};
 use crate::Complex64;
 use crate::numbers::simd::MultiplyAdd;
-use crate::wrench::snapped;
+use crate::wrench::Planar;
 
 /// Rows evaluated side by side.
 pub(super) const ROWS_SIDE_BY_SIDE: usize = 16;
@@ -120,34 +120,17 @@ impl Block {
         }
     }
 
-    /// Bound of the rounding error.
-    pub fn bound(&self, order: usize, i: usize) -> f64 {
-        self.orders[order].bound[i]
-    }
-
-    /// Forward part and conjugate of the backward part, zero where rounding is all there is.
+    /// Sum of an order at a row, also where it is rounding; of torque the forward part is it.
     #[inline(always)]
-    pub fn turning(&self, order: usize, i: usize) -> [Complex64; 2] {
-        let sums = &self.orders[order];
-        let ([forward, backward_conj], bound) = (sums.at(i), sums.bound[i]);
-        [snapped(forward, bound), snapped(backward_conj, bound)]
+    pub fn planar(&self, order: usize, i: usize) -> Planar {
+        let Sums { forward: [f, g], backward_conj: [u, v], bound } = &self.orders[order];
+        let (forward, backward_conj) = (Complex64::new(f[i], g[i]), Complex64::new(u[i], v[i]));
+        Planar { forward, backward_conj, bound: bound[i] }
     }
 
-    /// Phasors along (about) x and y; of torque the first is it.
-    #[inline(always)]
-    pub fn phasors(&self, order: usize, i: usize) -> [Complex64; 2] {
-        let sums = &self.orders[order];
-        let ([forward, backward_conj], bound) = (sums.at(i), sums.bound[i]);
-        let (sum, difference) = (forward + backward_conj, forward - backward_conj);
-        // −i times the difference.
-        let about_y = Complex64::new(difference.im, -difference.re);
-        [snapped(sum, bound), snapped(about_y, bound)]
-    }
-
-    /// Phasors of all orders of one row, component by component.
+    /// Phasors along (about) x and y of all orders of one row, component by component.
     pub fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
-        let phasors: Vec<_> = (0..self.orders.len()).map(|order| self.phasors(order, i)).collect();
-        [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
+        components((0..self.orders.len()).map(|order| self.planar(order, i)))
     }
 
     /// Magnitudes of the phasors of every row and order times a factor, x and y side by side.
@@ -186,18 +169,15 @@ impl Block {
     }
 }
 
-impl Sums {
-    /// Forward part and conjugate of the backward part of a row.
-    #[inline(always)]
-    fn at(&self, i: usize) -> [Complex64; 2] {
-        let Self { forward: [f, g], backward_conj: [u, v], .. } = self;
-        [Complex64::new(f[i], g[i]), Complex64::new(u[i], v[i])]
-    }
+/// Phasors along (about) x and y of sums, component by component; of torques the first are they.
+pub(super) fn components(sums: impl Iterator<Item = Planar>) -> [Vec<Complex64>; 2] {
+    let phasors: Vec<_> = sums.map(|sum| sum.xy(sum.bound)).collect();
+    [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
 }
 
 /// Length of a phasor, 0 where it is within a bound.
 #[inline(always)]
-fn magnitude(re: f64, im: f64, bound: f64) -> f64 {
+pub(super) fn magnitude(re: f64, im: f64, bound: f64) -> f64 {
     let square = re.multiply_add(re, im * im);
     if square > bound * bound { square.sqrt() } else { 0.0 }
 }

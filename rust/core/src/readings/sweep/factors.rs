@@ -5,16 +5,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::block::ROWS_SIDE_BY_SIDE;
-use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Selection, Sweep};
 use crate::Complex64;
-use crate::load::Scene;
+use crate::load::{Harmonic, Scene};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
-use crate::readings::quantity::Quantity;
+use crate::readings::quantity::{Kind, Quantity};
+use crate::source::{PointColumns, at_points};
 
 /// Columns of numbers, one after the other, each followed by room that a block may read.
 pub(super) struct Padded<const N: usize> {
@@ -105,14 +105,26 @@ impl Coefficients {
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let sources = &loads.sources;
-        let harmonics = PointHarmonics::new(sweep, (sources, layout), selection, &points, cancel)?;
+        let points = memory::collected(points.map(|point| sweep.at(selection, point)))?;
+        let mut harmonics: Vec<(Harmonic, PointColumns)> = Vec::new();
+        for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
+            if harmonics.iter().all(|(known, _)| *known != harmonic) {
+                let source = &loads.sources[harmonic.source];
+                let [roll, crank] =
+                    at_points(source, harmonic.column, &points, &sweep.orders, cancel)?;
+                let on_crank = selection.quantity.kind == Kind::CrankTorque;
+                harmonics.push((harmonic, if on_crank { crank } else { roll }));
+            }
+        }
         let mut by_order = memory::with_capacity(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;
             let mut columns = Padded::zeros(count)?;
             for sum in sums {
-                let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };
+                let known = harmonics.iter().find(|(known, _)| *known == sum.harmonic);
+                let Some([re, im]) = known.and_then(|(_, columns)| columns.get(k)) else {
+                    continue;
+                };
                 let mut each = columns.each();
                 for coefficient in sum.parts.iter().flat_map(|part| [part.cos, part.sin, part.rest])
                 {

@@ -6,15 +6,12 @@
 //! the sums times harmonics at points of rod ratio and pin offset; a row of the result is a
 //! combination of the two. Every number is evaluated by itself, whatever else is swept.
 
-use std::ops::{Add, Mul, Range};
-
-use bytemuck::Zeroable;
+use std::ops::Range;
 
 use super::block::{Block, ROWS_SIDE_BY_SIDE};
 use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
 use super::{Selection, Sweep};
-use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
@@ -30,14 +27,6 @@ const PART: usize = 1 << 11;
 pub(super) const ROWS_PER_TASK: usize = 1024;
 /// Rows between two checks for cancellation.
 const ROWS_PER_CHECK: usize = 128;
-
-/// What a result holds.
-pub(super) trait Number:
-    Copy + Default + Zeroable + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self>
-{
-}
-impl Number for f64 {}
-impl Number for Complex64 {}
 
 /// Rows to evaluate.
 pub(super) struct Job<'a> {
@@ -56,8 +45,7 @@ impl Job<'_> {
         let mut layouts: Vec<Layout> = memory::with_capacity(self.sweep.engines.len())?;
         for (engine, loads) in self.sweep.engines.iter().zip(&self.sweep.loads) {
             self.cancel.check()?;
-            let sums = self.sweep.layouts(engine, loads, &[self.selection])?;
-            layouts.push(sums.into_iter().next().unwrap_or_default());
+            layouts.push(self.sweep.layout(engine, loads, self.selection)?);
         }
         Ok(layouts)
     }
@@ -66,12 +54,15 @@ impl Job<'_> {
     ///
     /// Rows are those of engine, bank angle and point, in this order; waves and coefficients are held for a slab
     /// of bank angles and a slab of points at a time.
-    pub fn rows<T: Number>(
+    pub fn rows<T: Send>(
         &self,
         out: &mut [T],
         factor: f64,
         finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
     ) -> Result<()> {
+        if out.is_empty() {
+            return Ok(());
+        }
         let sweep = self.sweep;
         let angles = sweep.bank_angles().len();
         let points = sweep.points_of(self.selection);
@@ -120,7 +111,7 @@ impl Job<'_> {
     }
 
     /// Tasks that write the rows of a span of one engine, from its coefficients part by part.
-    fn tasks<'t, T: Number>(
+    fn tasks<'t, T>(
         &self,
         span: &Span,
         coefficients: &'t [Coefficients],
@@ -152,7 +143,7 @@ impl Job<'_> {
     }
 
     /// Evaluates the rows of a task.
-    fn evaluate<T: Number>(
+    fn evaluate<T>(
         &self,
         waves: &Waves,
         Task { coefficients, first, out }: Task<T>,

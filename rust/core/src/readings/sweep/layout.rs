@@ -4,7 +4,7 @@ use super::{Selection, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::load::{
-    BankPhase, Harmonic, Load, PhasorSum, Scene, SourceIndex, Term, Wanted, count, find_or_push,
+    BankPhase, Group, Harmonic, Load, PhasorSum, Scene, Term, Wanted, count, find_or_push,
 };
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
@@ -37,13 +37,13 @@ pub(super) struct BanksTurned {
 pub(super) type Layout = Vec<Vec<LayoutSum>>;
 
 impl Sweep {
-    /// Layout sums of an engine for some quantities.
-    pub(super) fn layouts(
+    /// Layout sums of an engine.
+    pub(super) fn layout(
         &self,
         engine: &Engine,
         loads: &Scene,
-        selections: &[Selection],
-    ) -> Result<Vec<Layout>> {
+        selection: Selection,
+    ) -> Result<Layout> {
         let vee = match &self.axes.bank_angle {
             Some((_, hold)) => {
                 let banks = engine.banks()?;
@@ -56,67 +56,55 @@ impl Sweep {
             }
             None => None,
         };
-        let planar = |selection: &Selection| selection.quantity.is_planar();
-        let wanted = Wanted {
-            planar: selections.iter().any(planar),
-            roll: !selections.iter().all(planar),
-            by_bank: vee.is_some(),
-        };
-        let counts = |load: &&Load| selections.iter().any(|one| one.counts(loads, load.source));
+        let (quantity, planar) = (selection.quantity, selection.quantity.is_planar());
+        let wanted = Wanted { planar, roll: !planar, by_bank: vee.is_some() };
+        let counts = |load: &&Load| selection.has(loads.group(load.source));
         let counted: Vec<Load> = loads.list.iter().filter(counts).copied().collect();
-        let mut layouts = vec![Layout::new(); selections.len()];
+        let count = count(&loads.list, !planar);
+        let mut layout = Layout::new();
         for &order in &self.orders {
-            let terms = loads.sums(&counted, order, wanted);
-            for (selection, layout) in selections.iter().zip(&mut layouts) {
-                let quantity = selection.quantity;
-                let count = count(&loads.list, !quantity.is_planar());
-                let rounding = rounding(count, order.number());
-                let mut sums = Vec::new();
-                for (term, parts) in
-                    terms.iter().filter_map(|t| Some((t, selection.parts(loads, t)?)))
-                {
-                    let harmonic = term.harmonic;
-                    let sum = find_or_push(
-                        &mut sums,
-                        |sum: &LayoutSum| sum.harmonic == harmonic,
-                        || LayoutSum { harmonic, ..LayoutSum::default() },
-                    );
-                    sum.bound += (parts[0].size + parts[1].size) * rounding;
-                    let Some((bank, (right, to_bisector, hold))) = term.bank.zip(vee) else {
-                        sum.parts.iter_mut().zip(parts).for_each(|(k, part)| k.rest += part.value);
-                        continue;
-                    };
-                    let is_right = bank == right;
-                    let to_bisector = to_bisector[usize::from(!is_right)];
-                    let multiples = quantity.turn(order, hold);
-                    for ((sum, part), multiple) in sum.parts.iter_mut().zip(parts).zip(multiples) {
-                        let turned = part.value * to_bisector.cis(multiple);
-                        // e^{−imγ/2} of the right bank, e^{imγ/2} of the left.
-                        let sine = Complex64::i() * turned;
-                        sum.cos += turned;
-                        sum.sin += if is_right == (multiple > 0) { -sine } else { sine };
-                    }
+            let rounding = rounding(count, order.number());
+            let mut sums = Vec::new();
+            for term in loads.sums(&counted, order, wanted) {
+                let Some(parts) = selection.parts(&term) else { continue };
+                let harmonic = term.harmonic;
+                let sum = find_or_push(
+                    &mut sums,
+                    |sum: &LayoutSum| sum.harmonic == harmonic,
+                    || LayoutSum { harmonic, ..LayoutSum::default() },
+                );
+                sum.bound += (parts[0].size + parts[1].size) * rounding;
+                let Some((bank, (right, to_bisector, hold))) = term.bank.zip(vee) else {
+                    sum.parts.iter_mut().zip(parts).for_each(|(k, part)| k.rest += part.value);
+                    continue;
+                };
+                let is_right = bank == right;
+                let to_bisector = to_bisector[usize::from(!is_right)];
+                let multiples = quantity.turn(order, hold);
+                for ((sum, part), multiple) in sum.parts.iter_mut().zip(parts).zip(multiples) {
+                    let turned = part.value * to_bisector.cis(multiple);
+                    // e^{−imγ/2} of the right bank, e^{imγ/2} of the left.
+                    let sine = Complex64::i() * turned;
+                    sum.cos += turned;
+                    sum.sin += if is_right == (multiple > 0) { -sine } else { sine };
                 }
-                layout.push(sums);
             }
+            layout.push(sums);
         }
-        Ok(layouts)
+        Ok(layout)
     }
 }
 
 impl Selection<'_> {
-    /// Whether it counts the loads of a source.
-    fn counts(&self, loads: &Scene, source: SourceIndex) -> bool {
-        let group = loads.group(source);
-        self.scaling.is_none_or(|scaling| scaling == group.scaling)
-            && self.quantity.part.has(&group.name)
+    /// Whether it counts the loads of a group.
+    pub(super) fn has(&self, group: &Group) -> bool {
+        self.group.is_none_or(|own| own == group) && self.quantity.part.has(&group.name)
     }
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
-    fn parts(&self, loads: &Scene, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
+    fn parts(&self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
         let own = term.harmonic.column == Column::Roll;
         match self.quantity.kind {
-            _ if !self.counts(loads, term.harmonic.source) => None,
             Kind::Force | Kind::Moment if own => None,
             Kind::Force => Some(term.force),
             Kind::Moment => Some(term.moment),

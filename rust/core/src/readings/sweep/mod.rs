@@ -8,7 +8,6 @@ mod axes;
 mod block;
 mod choice;
 mod factors;
-mod harmonics;
 mod kernel;
 mod layout;
 mod operating;
@@ -16,12 +15,15 @@ mod placed;
 mod tiles;
 mod waveform;
 
+use std::array::from_fn;
 use std::sync::Arc;
 
+use bytemuck::cast_slice_mut;
+
 pub use self::axes::{MapAxes, SweepAxes};
-use self::block::Block;
+use self::block::{Block, components, magnitude};
 use self::kernel::Job;
-use self::operating::Nodes;
+use self::operating::{Nodes, RowsAtSpeeds};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Group, Scene, find_or_push};
@@ -31,16 +33,18 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
-use crate::readings::balance::ErrorBounds;
+use crate::pressure::Cycle;
+use crate::readings::balance::{ErrorBounds, Orders};
 use crate::readings::peaks::PeakFinder;
 use crate::readings::quantity::Quantity;
-use crate::source::{INERTIA, Scaling};
+use crate::source::{INERTIA, Point, Scaling};
+use crate::wrench::Planar;
 
-/// Rows of a quantity: of all that makes it, or of what scales with speed in one way.
+/// Rows of a quantity: of all that makes it, or of a group of loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Selection<'a> {
     pub quantity: Quantity<'a>,
-    pub scaling: Option<Scaling>,
+    pub group: Option<&'a Group>,
 }
 
 /// Which value of force, moment or torque over the turn.
@@ -77,12 +81,12 @@ pub enum Statistic {
 ///
 /// use crankpin_core::quantity::Quantity;
 /// use crankpin_core::sweep::{SweepAxes, Statistic, Sweep};
-/// use crankpin_core::{Cancel, Order};
+/// use crankpin_core::{Cancel, Orders};
 ///
 /// let rpm = vec![1000.0, 2000.0];
 /// let axes = SweepAxes { bank_angle: None, rod_ratio: None, pin_offset: None, rpm, map: None };
-/// let orders = Order::all_whole(&[1, 2])?;
-/// let sweep = Sweep::new(vec![Arc::new(four)], axes, orders, None, &Cancel::new())?;
+/// let orders = Orders::whole(&[1, 2])?;
+/// let sweep = Sweep::new(vec![Arc::new(four)], axes, &orders, None, false, &Cancel::new())?;
 /// assert_eq!(sweep.result_shape(Quantity::FORCE, Statistic::Length), [1, 1, 1, 1, 2, 1, 2]);
 /// let mut peaks = vec![0.0; 4]; // by speed and order, N
 /// sweep.write_peaks(Quantity::FORCE, Statistic::Length, &mut peaks, &Cancel::new())?;
@@ -112,16 +116,19 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Checks everything that can be wrong. With a map of cycles those of the engines are replaced by the
-    /// map's.
+    /// Checks everything that can be wrong, and chooses orders where they are not given: few that leave out little at
+    /// any point, of torque if it is wanted. With a map of cycles those of the engines are replaced by the map's.
     pub fn new(
         engines: Vec<Arc<Engine>>,
         axes: SweepAxes,
-        orders: Vec<Order>,
+        orders: &Orders,
         reference_z: Option<f64>,
+        torque: bool,
         cancel: &Cancel,
     ) -> Result<Self> {
-        order::check_list(&orders)?;
+        if let Orders::Given(orders) = orders {
+            order::check_list(orders)?;
+        }
         axes::not_empty("engines", engines.len())?;
         let omegas = axes.omegas(cancel)?;
         let nodes = Nodes::new(&axes, cancel)?;
@@ -140,19 +147,25 @@ impl Sweep {
             }
             loads.push(list);
         }
-        Ok(Self {
-            torque: engines.iter().all(|engine| engine.spectrum().is_none()),
+        let mut sweep = Self {
+            torque: torque && engines.iter().all(|engine| engine.spectrum().is_none()),
             engines,
             axes,
             loads,
             groups,
             nodes,
-            orders,
+            orders: Vec::new(),
             extremes,
             omegas,
             omitted: Vec::new(),
             error_bound: ErrorBounds::default(),
-        })
+        };
+        let chosen = match orders {
+            Orders::Given(orders) => (orders.clone(), Vec::new(), ErrorBounds::default()),
+            Orders::Auto { rtol } => sweep.chosen(*rtol, cancel)?,
+        };
+        (sweep.orders, sweep.omitted, sweep.error_bound) = chosen;
+        Ok(sweep)
     }
 
     /// Names of the parts of its quantities: of the loads of all engines.
@@ -219,13 +232,6 @@ impl Sweep {
         self.error_bound
     }
 
-    /// The same sweep without torque.
-    #[must_use]
-    pub fn without_torque(mut self) -> Self {
-        self.torque = false;
-        self
-    }
-
     /// Lengths of all axes of a result: engine, bank angle, rod ratio, pin offset, speed, load; then orders
     /// and components, if any.
     #[must_use]
@@ -257,8 +263,28 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         let width = self.checked_width(quantity, figure, out.len())?;
-        self.at_each_speed(quantity, width, out, cancel, |selection, out, factor| {
-            self.phasor_rows(selection, figure, out, factor, cancel)
+        if out.is_empty() {
+            return Ok(());
+        }
+        if self.is_of_one_square(quantity) {
+            let numbers = cast_slice_mut(out);
+            return self.at_each_speed(
+                quantity,
+                2 * width,
+                numbers,
+                cancel,
+                |selection, out, factor| {
+                    self.phasor_rows((selection, figure), cast_slice_mut(out), factor, cancel)
+                },
+            );
+        }
+        let sums = self.sums(quantity, cancel)?;
+        let components = width / self.orders.len();
+        sums.finish(None, (out, width, 1), cancel, |row, _, out| {
+            for (sum, out) in sums_of(row, quantity).iter().zip(out.chunks_exact_mut(components)) {
+                out.copy_from_slice(&figure.phasors(sum)[..components]);
+            }
+            Ok(())
         })
     }
 
@@ -272,8 +298,10 @@ impl Sweep {
     ) -> Result<()> {
         let figure = if figure == Statistic::Turning { Statistic::Amplitude } else { figure };
         let width = self.checked_width(quantity, figure, out.len())?;
-        let has_others =
-            self.scalings(quantity) != [Scaling::SpeedSquared] || self.may_have_mean(quantity);
+        if out.is_empty() {
+            return Ok(());
+        }
+        let has_others = !self.is_of_one_square(quantity) || self.may_have_mean(quantity);
         let finder = figure.is_of_sum().then(|| {
             let orders = &self.orders;
             if has_others && !quantity.is_planar() {
@@ -289,57 +317,74 @@ impl Sweep {
         if figure == Statistic::Mean {
             return self.at_each_speed(quantity, width, out, cancel, means);
         }
-        if has_others && figure.is_after_sums() {
-            let orders = self.orders.len();
-            let components = quantity.components();
-            let is_length = figure == Statistic::Length;
-            let parts = if is_length { Statistic::Turning } else { Statistic::Amplitude };
-            let count = orders * if is_length { 2 } else { components };
-            let phasors = self.operating(quantity, count, |selection, out, factor| {
-                self.phasor_rows(selection, parts, out, factor, cancel)
-            })?;
-            let Some(finder) = finder else {
-                return if is_length {
-                    phasors.lengths(orders, out, cancel)
-                } else {
-                    phasors.magnitudes(out, cancel)
-                };
-            };
-            let means = self.operating(quantity, 1, means)?;
-            return phasors.extremes(&means, width, out, cancel, |row, mean, out| {
-                if !quantity.is_planar() {
-                    out[0] = finder.beside_mean(mean, row, cancel)?;
-                    return Ok(());
-                }
-                let component =
-                    |k: usize| row.iter().skip(k).step_by(2).copied().collect::<Vec<_>>();
-                let (x, y) = (component(0), component(1));
-                if figure == Statistic::LengthOfSum {
-                    out[0] = finder.of_vector(&x, &y, cancel)?;
-                } else {
-                    out[0] = finder.along_axis(&x, cancel)?;
-                    out[1] = finder.along_axis(&y, cancel)?;
-                }
-                Ok(())
+        if !has_others || !figure.is_after_sums() {
+            return self.at_each_speed(quantity, width, out, cancel, |selection, out, factor| {
+                self.peak_rows((selection, figure), finder.as_ref(), out, factor, cancel)
             });
         }
-        self.at_each_speed(quantity, width, out, cancel, |selection, out, factor| {
-            self.peak_rows((selection, figure), finder.as_ref(), out, factor, cancel)
+        let sums = self.sums(quantity, cancel)?;
+        let Some(finder) = finder else {
+            return sums.finish(
+                None,
+                (out, width, 1),
+                cancel,
+                #[inline(always)]
+                |row, _, out| {
+                    write_sizes(row, quantity, figure, out);
+                    Ok(())
+                },
+            );
+        };
+        let means = self.operating(quantity, 1, means)?;
+        // A search for an extremum takes some hundred times as long.
+        sums.finish(Some(&means), (out, width, 256), cancel, |row, mean, out| {
+            cancel.check()?;
+            let [x, y] = components(sums_of(row, quantity).into_iter());
+            if !quantity.is_planar() {
+                out[0] = finder.beside_mean(mean, &x, cancel)?;
+            } else if figure == Statistic::LengthOfSum {
+                out[0] = finder.of_vector(&x, &y, cancel)?;
+            } else {
+                out[0] = finder.along_axis(&x, cancel)?;
+                out[1] = finder.along_axis(&y, cancel)?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Sums of every order at every speed and load, as columns of numbers: real and imaginary parts, and the bounds of
+    /// their rounding errors.
+    fn sums(&self, quantity: Quantity, cancel: &Cancel) -> Result<RowsAtSpeeds<'_>> {
+        let (orders, columns) = (self.orders.len(), 2 * quantity.components() + 1);
+        let width = orders * columns;
+        self.operating(quantity, width, |selection, out, _| {
+            let job = Job { sweep: self, selection, width, slow: false, cancel };
+            job.rows(out, 1.0, |block: &Block, _, out: &mut [f64]| {
+                for (i, row) in out.chunks_exact_mut(width).enumerate() {
+                    for order in 0..orders {
+                        let sum = block.planar(order, i).snapped();
+                        let Planar { forward: f, backward_conj: b, bound } = sum;
+                        let numbers = [f.re, f.im, b.re, b.im, bound];
+                        for (column, k) in (0..columns - 1).chain([4]).enumerate() {
+                            row[column * orders + order] = numbers[k];
+                        }
+                    }
+                }
+                Ok(())
+            })
         })
     }
 
     /// Phasors of every row, times a factor.
     fn phasor_rows(
         &self,
-        selection: Selection,
-        figure: Statistic,
+        (selection, figure): (Selection, Statistic),
         out: &mut [Complex64],
         factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
-        let turning = figure == Statistic::Turning;
-        let components = if turning { 2 } else { selection.quantity.components() };
-        let width = self.orders.len() * components;
+        let width = self.width(selection.quantity, figure);
+        let components = width / self.orders.len().max(1);
         let job = Job { sweep: self, selection, width, slow: false, cancel };
         job.rows(
             out,
@@ -347,16 +392,11 @@ impl Sweep {
             #[inline(always)]
             |block: &Block, factor: f64, out: &mut [Complex64]| {
                 for (i, row) in out.chunks_exact_mut(width).enumerate() {
-                    for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
-                        let values = if figure == Statistic::Turning {
-                            let [forward, backward_conj] = block.turning(order, i);
-                            [forward, backward_conj.conj() + Complex64::default()]
-                        } else {
-                            block.phasors(order, i)
-                        };
-                        for (out, value) in phasors.iter_mut().zip(&values) {
-                            *out = *value * factor;
-                        }
+                    for (order, out) in row.chunks_exact_mut(components).enumerate() {
+                        let phasors = figure.phasors(&block.planar(order, i));
+                        out.iter_mut()
+                            .zip(phasors)
+                            .for_each(|(out, phasor)| *out = phasor * factor);
                     }
                 }
                 Ok(())
@@ -387,7 +427,7 @@ impl Sweep {
                     (Statistic::ZeroBound, _) => {
                         for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                             for (order, bound) in row.iter_mut().enumerate() {
-                                *bound = block.bound(order, i) * factor;
+                                *bound = block.planar(order, i).bound * factor;
                             }
                         }
                     }
@@ -451,15 +491,11 @@ impl Sweep {
         own.filter(move |group| quantity.part.has(&group.name))
     }
 
-    /// Ways in which what makes a quantity scales with speed.
-    fn scalings(&self, quantity: Quantity) -> Vec<Scaling> {
-        let mut scalings = Vec::new();
-        for group in self.groups_of(quantity) {
-            if !scalings.contains(&group.scaling) {
-                scalings.push(group.scaling);
-            }
-        }
-        scalings
+    /// Whether one group makes a quantity, and scales with the square of the speed.
+    fn is_of_one_square(&self, quantity: Quantity) -> bool {
+        let mut groups = self.groups_of(quantity);
+        let is_square = |group: &Group| group.scaling == Scaling::SpeedSquared;
+        groups.next().is_some_and(is_square) && groups.next().is_none()
     }
 
     /// Whether it is a torque that more than inertia makes.
@@ -475,7 +511,8 @@ impl Sweep {
 
     /// Number of cycles of a map at which a selection is evaluated.
     fn cycles_of(&self, selection: Selection) -> usize {
-        if selection.scaling == Some(Scaling::Independent) { self.nodes.count() } else { 1 }
+        let by_cycle = |group: &Group| group.scaling == Scaling::Independent;
+        if selection.group.is_some_and(by_cycle) { self.nodes.count() } else { 1 }
     }
 
     /// Number of points of rod ratio and pin offset.
@@ -484,12 +521,88 @@ impl Sweep {
         ratios * offsets
     }
 
+    /// What a point of a quantity replaces: the cycle changes first.
+    fn at(&self, selection: Selection, point: usize) -> Point<'_> {
+        let cycles = self.cycles_of(selection);
+        Point { cycles: self.cycles_at(point % cycles), ..self.proportions_at(point / cycles) }
+    }
+
+    /// Cycles of a map at one of its speeds and loads.
+    fn cycles_at(&self, node: usize) -> Option<&[Arc<Cycle>]> {
+        self.axes.map.as_ref().map(|map| &map.cycles[node][..])
+    }
+
+    /// Rod ratio and pin offset of a point, where they are swept.
+    fn proportions_at(&self, point: usize) -> Point<'static> {
+        let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
+        let in_a_row = offsets.as_ref().map_or(1, Vec::len);
+        Point {
+            rod_ratio: ratios.as_ref().map(|ratios| ratios[point / in_a_row]),
+            pin_offset: offsets.as_ref().map(|offsets| offsets[point % in_a_row]),
+            cycles: None,
+        }
+    }
+
     fn bank_angles(&self) -> &[f64] {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
 }
 
+/// Columns of numbers of a row.
+fn columns<const N: usize>(row: &[f64]) -> [&[f64]; N] {
+    let orders = row.len() / N;
+    from_fn(|column| &row[column * orders..][..orders])
+}
+
+/// The sums of a row of numbers, zero where rounding is all there is.
+fn sums_of(row: &[f64], quantity: Quantity) -> Vec<Planar> {
+    let complex = |re: &[f64], im: &[f64], k: usize| Complex64::new(re[k], im[k]);
+    let planar = |forward, backward_conj, bound| Planar { forward, backward_conj, bound }.snapped();
+    if quantity.is_planar() {
+        let [f, g, u, v, bounds] = columns(row);
+        let of = |(k, bound): (usize, &f64)| planar(complex(f, g, k), complex(u, v, k), *bound);
+        return bounds.iter().enumerate().map(of).collect();
+    }
+    let [re, im, bounds] = columns(row);
+    let of = |(k, bound): (usize, &f64)| planar(complex(re, im, k), Complex64::ZERO, *bound);
+    bounds.iter().enumerate().map(of).collect()
+}
+
+/// Writes the amplitudes along (about) each axis, or the length, of the sums of a row of numbers.
+#[inline(always)]
+fn write_sizes(row: &[f64], quantity: Quantity, figure: Statistic, out: &mut [f64]) {
+    if !quantity.is_planar() {
+        let [re, im, bounds] = columns(row);
+        for (((out, re), im), bound) in out.iter_mut().zip(re).zip(im).zip(bounds) {
+            *out = magnitude(*re, *im, *bound);
+        }
+        return;
+    }
+    let [f, g, u, v, bounds] = columns(row);
+    let parts = f.iter().zip(g).zip(u.iter().zip(v)).zip(bounds);
+    if figure == Statistic::Length {
+        for (out, (((f, g), (u, v)), bound)) in out.iter_mut().zip(parts) {
+            *out = magnitude(*f, *g, *bound) + magnitude(*u, *v, *bound);
+        }
+        return;
+    }
+    let pairs = out.as_chunks_mut::<2>().0;
+    for (out, (((f, g), (u, v)), bound)) in pairs.iter_mut().zip(parts) {
+        *out = [1.0, -1.0].map(|sign| magnitude(f + sign * u, g + sign * v, *bound));
+    }
+}
+
 impl Statistic {
+    /// The phasors of a sum: forward and backward part, or along (about) x and y.
+    #[inline(always)]
+    fn phasors(self, sum: &Planar) -> [Complex64; 2] {
+        if self != Self::Turning {
+            return sum.xy(sum.bound);
+        }
+        let sum = sum.snapped();
+        [sum.forward, sum.backward()]
+    }
+
     /// Whether it takes a search for an extremum.
     fn is_of_sum(self) -> bool {
         matches!(self, Self::Sum | Self::LengthOfSum)

@@ -1,22 +1,24 @@
 //! Rows of a sweep at its speeds and loads.
 //!
-//! A row without either is evaluated once for each way in which loads scale with speed; at a speed these are
-//! multiplied by what that scaling is, such as ω², and added. Rows of what does not scale, one for each cycle
+//! A row without either is evaluated once for each group of loads; at a speed these are multiplied by what the group
+//! scales with, such as ω², and added, as those of a balance are. Rows of what does not scale, one for each cycle
 //! of a map, are interpolated as the cycles are, linearly over speed and then over load.
 
+use std::sync::Arc;
+
 use super::axes::SweepAxes;
-use super::kernel::{Number, ROWS_PER_TASK};
+use super::kernel::ROWS_PER_TASK;
 use super::{Selection, Sweep};
-use crate::Complex64;
-use crate::load::SourceIndex;
+use crate::load::{Group, GroupIndex, SourceIndex};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::index::List;
 use crate::numbers::memory;
 use crate::numbers::pool;
-use crate::numbers::simd::{MultiplyAdd, vectorised};
+use crate::numbers::simd::vectorised;
 use crate::pressure::map::{Between, between};
 use crate::readings::quantity::{Kind, Quantity};
-use crate::source::{Scaling, at_point};
+use crate::source::{INERTIA, Source, at_point};
 
 /// Numbers written between two checks for cancellation, of rows that are long.
 const NUMBERS_PER_TASK: usize = 1 << 16;
@@ -65,16 +67,16 @@ impl Nodes {
     }
 }
 
-/// Rows of each scaling, and what they become at each speed and load.
-pub(super) struct RowsAtSpeeds<'a, T> {
+/// Rows of each group, and what they become at each speed and load.
+pub(super) struct RowsAtSpeeds<'a> {
     sweep: &'a Sweep,
-    scaled: Vec<ScaledRows<T>>,
+    scaled: Vec<ScaledRows>,
     width: usize,
 }
 
 /// Rows by engine, bank angle and point, over what they scale with.
-struct ScaledRows<T> {
-    rows: Vec<T>,
+struct ScaledRows {
+    rows: Vec<f64>,
     /// By speed.
     factors: Vec<f64>,
     /// Whether there is one for each cycle of a map.
@@ -82,15 +84,15 @@ struct ScaledRows<T> {
 }
 
 /// Room for a row, and for what those at one speed share.
-struct Room<T> {
-    row: Vec<T>,
-    at_speed: AtSpeed<T>,
+struct Room {
+    row: Vec<f64>,
+    at_speed: AtSpeed,
 }
 
 /// Rows interpolated over speed, one for each load of a map.
 #[derive(Default)]
-struct AtSpeed<T> {
-    rows: Vec<T>,
+struct AtSpeed {
+    rows: Vec<f64>,
     /// Of which row, at which speed.
     place: Option<(usize, usize)>,
 }
@@ -104,43 +106,45 @@ struct GridPoint {
 }
 
 impl Sweep {
-    /// Writes rows at every speed and load; `evaluate` writes those of a quantity over ω², times a factor.
-    pub(super) fn at_each_speed<T: Number>(
+    /// Writes rows at every speed and load; `evaluate` writes those of a quantity over what it scales with, times a
+    /// factor.
+    pub(super) fn at_each_speed(
         &self,
         quantity: Quantity,
         width: usize,
-        out: &mut [T],
+        out: &mut [f64],
         cancel: &Cancel,
-        evaluate: impl Fn(Selection, &mut [T], f64) -> Result<()>,
+        evaluate: impl Fn(Selection, &mut [f64], f64) -> Result<()>,
     ) -> Result<()> {
-        if out.is_empty() {
-            return Ok(());
+        match self.only_factor(quantity) {
+            _ if out.is_empty() => Ok(()),
+            Some(factor) => evaluate(Selection { quantity, group: None }, out, factor),
+            None => self.operating(quantity, width, evaluate)?.write(out, cancel),
         }
-        if let [omega] = self.omegas[..]
-            && self.nodes.loads() == 1
-            && self.scalings(quantity) == [Scaling::SpeedSquared]
-        {
-            return evaluate(Selection { quantity, scaling: None }, out, omega * omega);
-        }
-        self.operating(quantity, width, evaluate)?.write(out, cancel)
+    }
+
+    /// What all that makes a quantity is multiplied by, at the only speed and load.
+    pub(super) fn only_factor(&self, quantity: Quantity) -> Option<f64> {
+        let [omega] = self.omegas[..] else { return None };
+        (self.nodes.loads() == 1 && self.is_of_one_square(quantity)).then_some(omega * omega)
     }
 
     /// Rows of a quantity before they are written at every speed and load.
-    pub(super) fn operating<T: Number>(
+    pub(super) fn operating(
         &self,
         quantity: Quantity,
         width: usize,
-        evaluate: impl Fn(Selection, &mut [T], f64) -> Result<()>,
-    ) -> Result<RowsAtSpeeds<'_, T>> {
-        let scaled = |scaling: Scaling| {
-            let selection = Selection { quantity, scaling: Some(scaling) };
+        evaluate: impl Fn(Selection, &mut [f64], f64) -> Result<()>,
+    ) -> Result<RowsAtSpeeds<'_>> {
+        let scaled = |group: &Group| {
+            let selection = Selection { quantity, group: Some(group) };
             let mut rows = memory::zeros(self.rows_of(selection) * width)?;
             evaluate(selection, &mut rows, 1.0)?;
             let mut factors = memory::with_capacity(self.omegas.len())?;
-            factors.extend(self.omegas.iter().map(|&omega| scaling.factor(omega)));
+            factors.extend(self.omegas.iter().map(|&omega| group.scaling.factor(omega)));
             Ok(ScaledRows { rows, factors, by_cycle: self.cycles_of(selection) > 1 })
         };
-        let scaled = self.scalings(quantity).into_iter().map(scaled).collect::<Result<_>>()?;
+        let scaled = self.groups_of(quantity).map(scaled).collect::<Result<_>>()?;
         Ok(RowsAtSpeeds { sweep: self, scaled, width })
     }
 
@@ -158,27 +162,27 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         out.fill(0.0);
-        let Selection { quantity, scaling } = selection;
+        let quantity = selection.quantity;
         if quantity.is_planar() {
             return Ok(());
         }
         let on_crank = usize::from(quantity.kind == Kind::CrankTorque);
         let (angles, points) = (self.bank_angles().len(), self.points_of(selection));
         for (loads, out) in self.loads.iter().zip(out.chunks_mut(angles * points)) {
-            let weights = loads.torque_weights();
-            let counts = |k: SourceIndex| {
-                let group = loads.group(k);
-                weights[k].size > 0.0
-                    && scaling.is_none_or(|own| own == group.scaling)
-                    && quantity.part.has(&group.name)
-            };
+            let has_mean = |group: &Group| selection.has(group) && *group.name != *INERTIA;
             let mut means = memory::with_capacity(points)?;
             for point in 0..points {
-                let (mut mean, at) = (0.0, self.at(selection, point));
-                for k in weights.indices().filter(|&k| counts(k)) {
-                    let own = at_point(&loads.sources[k], &at)?.torque(&[], cancel)?.mean;
-                    mean += weights[k].value * own[on_crank];
-                }
+                let at = self.at(selection, point);
+                let own = |(source, group): (&Arc<dyn Source>, &GroupIndex)| {
+                    if !source.parts().roll || !has_mean(&loads.groups[*group]) {
+                        return Ok(0.0);
+                    }
+                    Ok(at_point(source, &at)?.torque(&self.orders, cancel)?.mean[on_crank])
+                };
+                let own: List<SourceIndex, f64> =
+                    loads.sources.iter().zip(&loads.group_of).map(own).collect::<Result<_>>()?;
+                let all = loads.list.iter().map(|load| load.roll * own[load.source]);
+                let mean = all.fold(0.0, |sum, own| sum + own);
                 means.push(factor * mean);
             }
             for out in out.chunks_mut(points) {
@@ -190,9 +194,9 @@ impl Sweep {
     }
 }
 
-impl<T: Number> RowsAtSpeeds<'_, T> {
+impl RowsAtSpeeds<'_> {
     /// Writes every row at every speed and load.
-    pub fn write(&self, out: &mut [T], cancel: &Cancel) -> Result<()> {
+    pub fn write(&self, out: &mut [f64], cancel: &Cancel) -> Result<()> {
         self.each(
             out,
             self.width,
@@ -205,13 +209,13 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
 
     /// Writes one row at a speed and a load.
     #[inline(always)]
-    fn row(&self, place: GridPoint, at_speed: &mut AtSpeed<T>, out: &mut [T]) -> Result<()> {
+    fn row(&self, place: GridPoint, at_speed: &mut AtSpeed, out: &mut [f64]) -> Result<()> {
         let (nodes, width) = (&self.sweep.nodes, self.width);
         let mut is_first = true;
         for scaled in &self.scaled {
             if scaled.by_cycle {
                 if is_first {
-                    out.fill(T::default());
+                    out.fill(0.0);
                 }
                 if at_speed.place != Some((place.row, place.speed)) {
                     self.interpolate(scaled, place, at_speed)?;
@@ -227,7 +231,7 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
                 if is_first {
                     // Adding zero makes −0 0.
                     let values = out.iter_mut().zip(row);
-                    values.for_each(|(out, &value)| *out = value * factor + T::default());
+                    values.for_each(|(out, &value)| *out = value * factor + 0.0);
                 } else {
                     add_scaled(out, &row[..width], factor);
                 }
@@ -235,7 +239,7 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
             is_first = false;
         }
         if is_first {
-            out.fill(T::default());
+            out.fill(0.0);
         }
         Ok(())
     }
@@ -244,15 +248,15 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
     #[inline(always)]
     fn interpolate(
         &self,
-        scaled: &ScaledRows<T>,
+        scaled: &ScaledRows,
         place: GridPoint,
-        at_speed: &mut AtSpeed<T>,
+        at_speed: &mut AtSpeed,
     ) -> Result<()> {
         let (nodes, width) = (&self.sweep.nodes, self.width);
         if at_speed.rows.is_empty() {
             at_speed.rows = memory::zeros(nodes.loads_of_map * width)?;
         }
-        at_speed.rows.fill(T::default());
+        at_speed.rows.fill(0.0);
         for (speed, weight) in nodes.speed_weights(place.speed) {
             if weight == 0.0 {
                 continue;
@@ -266,6 +270,32 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
         Ok(())
     }
 
+    /// Hands every row at every speed and load, its mean, and the place of its result, of `width` numbers, to a
+    /// function; a number of the result takes some `cost` times as long as a product.
+    pub fn finish<O: Send>(
+        &self,
+        means: Option<&Self>,
+        (out, width, cost): (&mut [O], usize, usize),
+        cancel: &Cancel,
+        finish: impl Fn(&[f64], f64, &mut [O]) -> Result<()> + Sync,
+    ) -> Result<()> {
+        self.each(
+            out,
+            width,
+            cost,
+            cancel,
+            #[inline(always)]
+            |place, room, out| {
+                self.row(place, &mut room.at_speed, &mut room.row)?;
+                let mut mean = [0.0];
+                if let Some(means) = means {
+                    means.row(place, &mut AtSpeed::default(), &mut mean)?;
+                }
+                finish(&room.row, mean[0], out)
+            },
+        )
+    }
+
     /// Hands every row at every speed and load, room for one, and the place of its result to a function;
     /// a number of the result takes some `cost` times as long as a product.
     fn each<O: Send>(
@@ -274,7 +304,7 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
         width: usize,
         cost: usize,
         cancel: &Cancel,
-        work: impl Fn(GridPoint, &mut Room<T>, &mut [O]) -> Result<()> + Sync,
+        work: impl Fn(GridPoint, &mut Room, &mut [O]) -> Result<()> + Sync,
     ) -> Result<()> {
         let (speeds, loads) = (self.sweep.omegas.len(), self.sweep.nodes.loads());
         let rows =
@@ -283,7 +313,7 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
         let pieces = memory::collected(out.chunks_mut((rows * width).max(1)).enumerate())?;
         cancel.expect(pieces.len());
         let piece = |(k, out): (usize, &mut [O])| {
-            let row: Vec<T> = memory::zeros(self.width)?;
+            let row = memory::zeros(self.width)?;
             let mut room = Room { row, at_speed: AtSpeed::default() };
             let at = k * rows;
             let mut place = GridPoint {
@@ -315,63 +345,6 @@ impl<T: Number> RowsAtSpeeds<'_, T> {
 
 /// Adds a row times a weight.
 #[inline(always)]
-fn add_scaled<T: Number>(out: &mut [T], row: &[T], weight: f64) {
-    out.iter_mut().zip(row).for_each(|(out, &value)| *out = *out + value * weight);
-}
-
-impl RowsAtSpeeds<'_, Complex64> {
-    /// Writes the magnitudes of every row.
-    pub fn magnitudes(&self, out: &mut [f64], cancel: &Cancel) -> Result<()> {
-        self.each(
-            out,
-            self.width,
-            1,
-            cancel,
-            #[inline(always)]
-            |place, room, out| {
-                self.row(place, &mut room.at_speed, &mut room.row)?;
-                for (out, phasor) in out.iter_mut().zip(&room.row) {
-                    *out = phasor.re.multiply_add(phasor.re, phasor.im * phasor.im).sqrt();
-                }
-                Ok(())
-            },
-        )
-    }
-
-    /// Writes the longest vectors of every row of forward and backward parts.
-    pub fn lengths(&self, orders: usize, out: &mut [f64], cancel: &Cancel) -> Result<()> {
-        self.each(
-            out,
-            orders,
-            2,
-            cancel,
-            #[inline(always)]
-            |place, room, out| {
-                self.row(place, &mut room.at_speed, &mut room.row)?;
-                for (out, parts) in out.iter_mut().zip(room.row.as_chunks::<2>().0) {
-                    *out = parts[0].norm() + parts[1].norm();
-                }
-                Ok(())
-            },
-        )
-    }
-
-    /// Writes `width` numbers of every row of phasors and its mean.
-    pub fn extremes(
-        &self,
-        means: &RowsAtSpeeds<'_, f64>,
-        width: usize,
-        out: &mut [f64],
-        cancel: &Cancel,
-        find: impl Fn(&[Complex64], f64, &mut [f64]) -> Result<()> + Sync,
-    ) -> Result<()> {
-        // A search for an extremum takes some hundred times as long.
-        self.each(out, width, 256, cancel, |place, room, out| {
-            cancel.check()?;
-            self.row(place, &mut room.at_speed, &mut room.row)?;
-            let mut mean = [0.0];
-            means.row(place, &mut AtSpeed::default(), &mut mean)?;
-            find(&room.row, mean[0], out)
-        })
-    }
+fn add_scaled(out: &mut [f64], row: &[f64], weight: f64) {
+    out.iter_mut().zip(row).for_each(|(out, &value)| *out += value * weight);
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Selection, Sweep};
 use crate::load::kinematics::{Kinematics, SourceSum};
-use crate::load::{GroupIndex, Scene};
+use crate::load::{Group, GroupIndex, Scene};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
@@ -16,8 +16,8 @@ use crate::source::{Source, at_point};
 /// An engine at one bank angle.
 pub(super) struct EngineAtBankAngle {
     pub kinematics: Kinematics,
-    /// Names of the groups of its sums.
-    names: List<GroupIndex, Arc<str>>,
+    /// Groups of its sums.
+    groups: List<GroupIndex, Group>,
     /// Sources of the sums at points.
     pub points: Vec<Vec<Arc<dyn Source>>>,
 }
@@ -33,8 +33,8 @@ impl Sweep {
             }
             None => &self.loads[engine],
         };
-        let names = loads.groups.map_to(|group| Arc::clone(&group.name));
-        Ok(EngineAtBankAngle { kinematics: Kinematics::new(loads), names, points: Vec::new() })
+        let (kinematics, groups) = (Kinematics::new(loads), loads.groups.clone());
+        Ok(EngineAtBankAngle { kinematics, groups, points: Vec::new() })
     }
 
     /// Sources of the sums at a point of a quantity.
@@ -58,27 +58,24 @@ impl Sweep {
 }
 
 impl EngineAtBankAngle {
-    /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
-    /// inertia or that of pressure.
+    /// Writes the values of every row, times a factor, at a block of crank angles.
     #[inline(always)]
     pub fn write<'o>(
         &self,
-        Selection { quantity, scaling }: Selection,
+        selection: Selection,
         factor: f64,
         block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) -> Result<()> {
+        let quantity = selection.quantity;
         let torque = !quantity.is_planar();
         let [force, moment] = [Kind::Force, Kind::Moment].map(|kind| quantity.kind == kind);
         let wanted = Quantities { force, moment, torque };
-        let counts = |sum: &SourceSum| {
-            scaling.is_none_or(|scaling| sum.source.parts().scaling == scaling)
-                && quantity.part.has(&self.names[sum.group])
-        };
+        let counts = |sum: &SourceSum| selection.has(&self.groups[sum.group]);
         let is_fixed = |k: usize, sum: &SourceSum| {
             self.points.iter().all(|of| Arc::ptr_eq(&of[k], &sum.source))
         };
-        let factors = self.kinematics.factors_of(scaling);
+        let factors = self.groups.map_to(|group| f64::from(u8::from(selection.has(group))));
         let [of_force, of_moment] = self.kinematics.zero_bounds(&factors);
         let mut fixed = Columns::ZERO;
         let (standing, moving): (Vec<_>, Vec<_>) = (self.kinematics.sums.iter().enumerate())

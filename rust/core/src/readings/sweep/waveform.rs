@@ -82,7 +82,7 @@ impl Sweep {
             return rows.add(&means, out);
         }
         let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(selection) * width)?;
-        self.phasor_rows(selection, Statistic::Amplitude, &mut phasors, factor, rows.cancel)?;
+        self.phasor_rows((selection, Statistic::Amplitude), &mut phasors, factor, rows.cancel)?;
         let phasors = &phasors[..];
         let tiles = |range: &Range<usize>, terms: &[OrderWave]| {
             Tiles::new(rows.angles, range, &self.orders, terms)

@@ -1,8 +1,5 @@
 //! Residual forces and moments of an engine whose parts deviate from their figures, sample by sample.
-//!
-//! Imports run downwards: `amplitudes` → `terms` → here.
 
-mod amplitudes;
 mod terms;
 
 use self::terms::Terms;
@@ -254,9 +251,9 @@ impl Tolerances {
                     let planar = Planar {
                         forward: nominal.forward + at(&change[0], i) * self.square,
                         backward_conj: nominal.backward_conj + at(&change[1], i) * self.square,
-                        size: nominal.size,
+                        bound: nominal.bound,
                     };
-                    let [x, y] = planar.xy(self.nominal.zero_bound(vector, k));
+                    let [x, y] = planar.xy(planar.bound);
                     *out = [x, y, planar.forward, planar.backward()];
                 }
                 if self.nominal.has_torque {

@@ -2,25 +2,24 @@
 //!
 //! Superposition is linear in the loads: a sample is the nominal engine, and of each load that
 //! deviates what it makes less what it made. Without deviations that is nothing, to the last bit; and
-//! sums that the nominal engine cancels stay free of its rounding. The weight of a load in the one sum
-//! is that difference, harmonics included, with one complex number for each sample.
+//! sums that the nominal engine cancels stay free of its rounding. A load of weight 1 is summed once, and
+//! multiplied by that difference, harmonics included: one complex number for each sample.
 
 use std::ops::Range;
-use std::rc::Rc;
+use std::sync::Arc;
 
-use super::amplitudes::{SampleAmplitudes, amplitudes};
 use super::{Deviations, Parameter, SAMPLES_AT_ONCE, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Station};
-use crate::load::{Arithmetic, Factor, Load, LoadIndex, Phasors, Scene, Wanted, Weight, superpose};
+use crate::load::{Load, Scene, SourceIndex, Wanted};
 use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::index::{List, ListIndex, distinct, list_index};
+use crate::numbers::index::List;
 use crate::numbers::order::Order;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
-use crate::source::ForcePart;
+use crate::source::{Column, ForcePart, Point, PointColumns, Source, at_points};
 
 /// A number of each sample.
 type Reals = [f64; SAMPLES_AT_ONCE];
@@ -36,11 +35,6 @@ pub(super) struct SampleSums {
     pub moment: [Complexes; 2],
     /// On the block and on the crank.
     pub torque: [Complexes; 2],
-}
-
-list_index! {
-    /// Index of a cylinder with the speed of its crank, among those that differ.
-    DrivenIndex
 }
 
 /// Load of a pin that deviates.
@@ -59,9 +53,6 @@ pub(super) struct Terms {
     loads: Scene,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
-    /// Different cylinders with the speeds of their cranks, and which of them is in each place.
-    mechanisms: List<DrivenIndex, (Cylinder, SpeedRatio)>,
-    mechanism_of: Vec<DrivenIndex>,
     /// Speed of each pin's crank over that of the main one.
     ratio_of: Vec<SpeedRatio>,
 }
@@ -75,18 +66,11 @@ impl Terms {
         torque: bool,
     ) -> Result<Self> {
         // Every pin carries mass: a tolerance of none is an unbalance too.
-        let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
-        let count = engine.stations().len();
-        let crank_of = (0..count).map(|i| engine.crank_of(i).position()).collect();
-        let laden = Engine::new("", "", laden.collect())?
-            .with_cranks(engine.cranks().to_vec(), crank_of)?
-            .with_counterweights(engine.counterweights().to_vec())?;
-        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let (mechanisms, mechanism_of) =
-            distinct((0..count).map(|i| (engine.stations()[i].cylinder, ratio(i))));
-        let mut ratio_of = vec![SpeedRatio::ONE; pins(pin_of)];
+        let laden = engine.without_gas().with_loads(Vec::new())?;
+        let laden = laden.with_rotating_masses(&vec![1.0; pin_of.len()])?; // bounded: by cylinders
+        let mut ratio_of = vec![SpeedRatio::ONE; pins(pin_of)]; // bounded: by cylinders
         for (i, &pin) in pin_of.iter().enumerate() {
-            ratio_of[pin] = ratio(i);
+            ratio_of[pin] = engine.cranks()[engine.crank_of(i)].ratio;
         }
         let mut loads = Scene::clone(&*Scene::of(&laden, Some(reference))?);
         let deviating = |load: &Load| {
@@ -102,8 +86,6 @@ impl Terms {
             deviating: loads.list.iter().filter_map(deviating).collect(),
             loads,
             pin_of: pin_of.to_vec(),
-            mechanisms,
-            mechanism_of,
             ratio_of,
         })
     }
@@ -143,25 +125,32 @@ impl Terms {
         mut write: impl FnMut(usize, &SampleSums),
     ) -> Result<()> {
         let orders = &self.orders[range];
-        let drawn = DrawnParts::new(self, deviations, first, orders, cancel)?;
-        let loads = self.deviating.iter().zip(&self.loads.list);
-        let loads: List<LoadIndex, Drawn> = loads.map(|of| self.drawn(&drawn, of)).collect();
+        let figures = DrawnFigures::new(self, deviations, first, orders, cancel)?;
+        let drawn = |load| self.drawn(&figures, load, orders, cancel);
+        let drawn =
+            self.deviating.iter().zip(&self.loads.list).map(drawn).collect::<Result<Vec<_>>>()?;
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
         for (k, &order) in orders.iter().enumerate() {
             cancel.check()?;
-            let phasors = Phasors { reference: self.loads.reference };
-            let arithmetic = Samples { loads: &loads, k, phasors };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
-            for term in superpose(&arithmetic, &self.loads.list, order, wanted) {
-                // Empty where nothing was added: an unbalance turns one way.
-                let planar = sums.force.iter_mut().chain(&mut sums.moment);
-                for (sum, part) in planar.zip(term.force.iter().chain(&term.moment)) {
-                    if let Some(part) = part.first() {
-                        add(sum, Complex64::ONE, part);
+            for (load, drawn) in self.loads.list.iter().zip(&drawn) {
+                let one = Load { weight: 1.0, roll: 1.0, ..*load };
+                for term in self.loads.sums(&[one], order, wanted) {
+                    if term.harmonic.column == Column::Roll {
+                        for (sum, amplitude) in sums.torque.iter_mut().zip([ROLL, CRANK]) {
+                            add(sum, term.roll.value, &drawn.change(amplitude, k)[0]);
+                        }
+                        continue;
                     }
-                }
-                for (sum, part) in sums.torque.iter_mut().zip(&term.roll) {
-                    add(sum, Complex64::ONE, part);
+                    let [change, levered] = drawn.change(FORCE, k);
+                    for (side, i) in [Complex64::i(), -Complex64::i()].into_iter().enumerate() {
+                        let unit = term.force[side].value;
+                        add(&mut sums.force[side], unit, &change);
+                        // A moment is its levered force turned by a quarter.
+                        add(&mut sums.moment[side], i * unit, &levered);
+                    }
+                    // A force on an arm turns the block alone.
+                    add(&mut sums.torque[0], term.roll.value, &change);
                 }
             }
             write(k, &sums);
@@ -169,63 +158,99 @@ impl Terms {
         Ok(())
     }
 
-    /// A load with its parts as they were drawn.
+    /// A load as it was drawn, and as it is nominally.
     fn drawn<'a>(
         &self,
-        drawn: &'a DrawnParts,
+        figures: &'a DrawnFigures,
         (&Deviating { pin, cylinder }, load): (&Deviating, &Load),
-    ) -> Drawn<'a> {
-        let turns = drawn.turns.get(pin).map(|turns| &turns[..]);
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Drawn<'a>> {
+        let source = &self.loads.sources[load.source];
         let (fixed, reference) =
             (|value: f64| ([value; SAMPLES_AT_ONCE], value), self.loads.reference);
-        let one = [&drawn.one; 2];
-        let Some(i) = cylinder else {
-            let lever = fixed(load.place.lever(reference));
-            return Drawn { parts: vec![(0, fixed(load.weight))], lever, amplitudes: one, turns };
+        let mut drawn = Drawn {
+            weights: [fixed(load.weight), fixed(load.roll)],
+            lever: fixed(load.place.lever(reference)),
+            nominal: &figures.nominal[load.source],
+            changed: None,
+            turns: figures.turns.get(pin).map(|turns| &turns[..]),
         };
-        let Station { cylinder, rotating_mass, z, .. } = self.places[i];
-        let radius = around(cylinder.crank_radius(), &drawn.radii[pin]);
-        let lever = (around(-reference, &around(z, &drawn.places[i])), z - reference);
-        let nominal = &drawn.nominal[self.mechanism_of[i]];
-        let of_cylinder = [drawn.changed.get(i).unwrap_or(nominal), nominal];
-        let (parts, amplitudes) = match load.parts.force {
-            Some(ForcePart::Along) => {
-                let mass = around(cylinder.reciprocating_mass(), &drawn.masses[i]);
-                let first_order = product(mass, &radius);
-                let force = (first_order, cylinder.mass_radius());
-                let torque = (product(first_order, &radius), cylinder.mass_radius_squared());
-                (vec![(0, force), (1, torque), (2, torque)], of_cylinder)
-            }
-            None => {
-                let torque = fixed(cylinder.rod_inertia_excess());
-                (vec![(3, torque), (4, torque)], of_cylinder)
-            }
+        let Some(i) = cylinder else { return Ok(drawn) };
+        let Station { cylinder, rotating_mass, z, .. } = &self.places[i];
+        drawn.lever.0 = around(-reference, &around(*z, &figures.places[i]));
+        let (nominal, has_motion) = (cylinder.crank_radius(), source.mechanism().is_some());
+        let radius = around(nominal, &figures.radii[pin]);
+        match load.parts.force {
             Some(ForcePart::Turning) => {
-                let unbalance = product(around(rotating_mass, &drawn.rotating[i]), &radius);
-                (vec![(0, (unbalance, rotating_mass * cylinder.crank_radius()))], one)
+                let unbalance = product(around(*rotating_mass, &figures.rotating[i]), &radius);
+                drawn.weights[0] = (unbalance, rotating_mass * nominal);
             }
+            Some(ForcePart::Along) if has_motion => {
+                let mass = around(cylinder.reciprocating_mass(), &figures.masses[i]);
+                let force = product(mass, &radius);
+                drawn.weights = [
+                    (force, cylinder.mass_radius()),
+                    (product(force, &radius), cylinder.mass_radius_squared()),
+                ];
+            }
+            _ => {}
+        }
+        if has_motion && figures.has_lengths {
+            let rods = around(cylinder.rod_length(), &figures.rods[i]);
+            let lengths = radius.into_iter().zip(rods);
+            let points: Vec<Point> =
+                lengths.map(|lengths| proportions(cylinder, lengths)).collect();
+            drawn.changed = Some(self.amplitudes(source, &points, orders, cancel)?);
+        }
+        Ok(drawn)
+    }
+
+    /// Amplitudes of a source at some points: of the force, and of the torques on the block and on the crank.
+    fn amplitudes(
+        &self,
+        source: &Arc<dyn Source>,
+        points: &[Point],
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<[PointColumns; 3]> {
+        let of = |column, is_wanted: bool| {
+            if !is_wanted {
+                return Ok(Default::default());
+            }
+            at_points(source, column, points, orders, cancel)
         };
-        Drawn { parts, lever, amplitudes, turns }
+        let parts = source.parts();
+        let [force, _] = of(Column::Force, parts.force.is_some())?;
+        let [roll, crank] = of(Column::Roll, parts.roll && self.torque)?;
+        Ok([force, roll, crank])
     }
 }
 
-/// Deviations of some samples by cylinder or pin, and what follows from them at some orders.
-struct DrawnParts {
+/// A cylinder of other lengths, crank radius and rod length, as a point of a sweep: a mechanism is that of its
+/// proportions.
+fn proportions(cylinder: &Cylinder, (radius, rod): (f64, f64)) -> Point<'static> {
+    let offset = cylinder.pin_offset() * (cylinder.crank_radius() / radius);
+    let pin_offset = (offset != 0.0).then_some(offset);
+    Point { rod_ratio: Some(radius / rod), pin_offset, cycles: None }
+}
+
+/// Deviations of some samples by cylinder or pin.
+struct DrawnFigures {
     masses: Vec<Reals>,
     rotating: Vec<Reals>,
     radii: Vec<Reals>,
     places: Vec<Reals>,
+    rods: Vec<Reals>,
+    /// Whether radii or rods deviate.
+    has_lengths: bool,
     /// Amplitudes without deviations.
-    nominal: List<DrivenIndex, SampleAmplitudes>,
-    /// Of each cylinder with them; empty where they are the nominal ones.
-    changed: Vec<SampleAmplitudes>,
-    /// Of an unbalance.
-    one: SampleAmplitudes,
-    /// By pin and order; empty where no pin deviates.
+    nominal: List<SourceIndex, [PointColumns; 3]>,
+    /// Turns by pin and order; empty where no pin deviates.
     turns: Vec<Vec<Complexes>>,
 }
 
-impl DrawnParts {
+impl DrawnFigures {
     fn new(
         terms: &Terms,
         deviations: &Deviations,
@@ -235,33 +260,17 @@ impl DrawnParts {
     ) -> Result<Self> {
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], terms.count(figure), first));
+        let nominal = |source: &Arc<dyn Source>| {
+            let lengths = source.mechanism().map(|of| of.mechanism.lengths());
+            let point = lengths.map(|of| proportions(of, (of.crank_radius(), of.rod_length())));
+            terms.amplitudes(source, &[point.unwrap_or_default()], orders, cancel)
+        };
+        let nominal = terms.loads.sources.iter().map(nominal).collect::<Result<_>>()?;
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
-        let nominal = terms.mechanisms.iter().map(|of| {
-            let lengths = (&[of.0.crank_radius()][..], &[of.0.rod_length()][..]);
-            amplitudes(of, terms.torque, lengths, orders, cancel)
-        });
-        let changed = terms.places.iter().enumerate().map(|(i, Station { cylinder, .. })| {
-            cancel.check()?;
-            let radius = around(cylinder.crank_radius(), &radii[terms.pin_of[i]]);
-            let rod = around(cylinder.rod_length(), &rods[i]);
-            let of = &terms.mechanisms[terms.mechanism_of[i]];
-            amplitudes(of, terms.torque, (&radius, &rod), orders, cancel)
-        });
-        let has_changed = deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength);
-        let changed = changed.take(if has_changed { terms.places.len() } else { 0 });
+        let has_lengths = deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength);
         let has_turns = deviates(Parameter::Pin);
-        let mut one = SampleAmplitudes::default();
-        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
-        Ok(Self {
-            nominal: nominal.collect::<Result<_>>()?,
-            changed: changed.collect::<Result<_>>()?,
-            one,
-            turns: if has_turns { turns(&angles, &terms.ratio_of, orders) } else { Vec::new() },
-            masses,
-            rotating,
-            radii,
-            places,
-        })
+        let turns = if has_turns { turns(&angles, &terms.ratio_of, orders) } else { Vec::new() };
+        Ok(Self { masses, rotating, radii, places, rods, has_lengths, nominal, turns })
     }
 }
 
@@ -284,102 +293,58 @@ fn turns(angles: &[Reals], ratio_of: &[SpeedRatio], orders: &[Order]) -> Vec<Vec
     angles.iter().zip(ratio_of).map(of_pin).collect()
 }
 
+/// Indices of amplitudes: of the force, and of the torques on the block and on the crank.
+const FORCE: usize = 0;
+const ROLL: usize = 1;
+const CRANK: usize = 2;
+
 /// A load as it was drawn, and as it is nominally.
 struct Drawn<'a> {
-    /// Lists of amplitudes, and weights: of the force, or of the torques on the block and on the crank.
-    parts: Vec<(usize, (Reals, f64))>,
+    /// Of the force and of the torque.
+    weights: [(Reals, f64); 2],
     lever: (Reals, f64),
-    amplitudes: [&'a SampleAmplitudes; 2],
+    /// Amplitudes of a sample, and of each with its deviations, if lengths deviate.
+    nominal: &'a [PointColumns; 3],
+    changed: Option<[PointColumns; 3]>,
     /// Turn of its pin, by order.
     turns: Option<&'a [Complexes]>,
 }
 
 impl Drawn<'_> {
-    /// Complex weights at the order of this index, less the nominal ones: of the force, of the moment,
-    /// of the torques on the block and on the crank; without those of which there are no amplitudes.
-    fn changes(&self, k: usize) -> Vec<Complexes> {
-        let mut changes = Vec::with_capacity(4);
-        for &(list, (ref weight, before)) in &self.parts {
-            let [drawn, nominal] = self.amplitudes.map(|lists| lists[list].get(k));
-            let (Some(drawn), Some(nominal)) = (drawn, nominal) else { break };
-            let mut change = [*weight; 2];
-            let mut levered = ZEROS;
-            vectorised(
-                #[inline(always)]
-                || {
-                    for (change, values) in change.iter_mut().zip(drawn) {
-                        match values[..] {
-                            [value] => multiply(change, &[value; SAMPLES_AT_ONCE]),
-                            _ => multiply(change, values),
-                        }
+    /// Weight times an amplitude at the order of this index, less the nominal one; and the same times the lever.
+    fn change(&self, amplitude: usize, k: usize) -> [Complexes; 2] {
+        let (weight, before) = &self.weights[usize::from(amplitude != FORCE)];
+        let nominal = &self.nominal[amplitude][k];
+        let drawn = self.changed.as_ref().map_or(nominal, |changed| &changed[amplitude][k]);
+        let (mut change, mut levered) = ([*weight; 2], ZEROS);
+        vectorised(
+            #[inline(always)]
+            || {
+                for (change, values) in change.iter_mut().zip(drawn) {
+                    match values[..] {
+                        [value] => multiply(change, &[value; SAMPLES_AT_ONCE]),
+                        _ => multiply(change, values),
                     }
-                    if let Some(turns) = self.turns {
-                        let ([re, im], [cos, sin]) = (&mut change, &turns[k]);
-                        for i in 0..SAMPLES_AT_ONCE {
-                            let (x, y) = (re[i], im[i]);
-                            re[i] = x * cos[i] - y * sin[i];
-                            im[i] = x * sin[i] + y * cos[i];
-                        }
+                }
+                if let Some(turns) = self.turns {
+                    let ([re, im], [cos, sin]) = (&mut change, &turns[k]);
+                    for i in 0..SAMPLES_AT_ONCE {
+                        let (x, y) = (re[i], im[i]);
+                        re[i] = x * cos[i] - y * sin[i];
+                        im[i] = x * sin[i] + y * cos[i];
                     }
-                    for part in 0..2 {
-                        let base = before * nominal[part][0];
-                        let (lever, at_rest) = &self.lever;
-                        for i in 0..SAMPLES_AT_ONCE {
-                            levered[part][i] = change[part][i] * lever[i] - base * at_rest;
-                            change[part][i] -= base;
-                        }
+                }
+                for part in 0..2 {
+                    let base = before * nominal[part][0];
+                    let (lever, at_rest) = &self.lever;
+                    for i in 0..SAMPLES_AT_ONCE {
+                        levered[part][i] = change[part][i] * lever[i] - base * at_rest;
+                        change[part][i] -= base;
                     }
-                },
-            );
-            changes.push(change);
-            if list == 0 {
-                changes.push(levered);
-            }
-        }
-        changes
-    }
-}
-
-/// Arithmetic of samples at one order: unit phasors, and complex weights less the nominal ones.
-struct Samples<'a> {
-    loads: &'a List<LoadIndex, Drawn<'a>>,
-    /// Index of the order.
-    k: usize,
-    phasors: Phasors,
-}
-
-impl Arithmetic for Samples<'_> {
-    type Unit = (Complex64, Rc<Vec<Complexes>>);
-    /// One, of torques those on the block and on the crank; none where nothing was added.
-    type Sum = Vec<Complexes>;
-
-    fn phase(&self, load: (LoadIndex, &Load), times: i64) -> Self::Unit {
-        (self.phasors.phase(load, times), Rc::new(self.loads[load.0].changes(self.k)))
-    }
-
-    fn toward(&self, load: (LoadIndex, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit {
-        (self.phasors.toward(load, &unit.0, conjugate), Rc::clone(&unit.1))
-    }
-
-    fn add(
-        &self,
-        sum: &mut Self::Sum,
-        (_, load): (LoadIndex, &Load),
-        weight: Weight,
-        (unit, changes): &Self::Unit,
-        times: Factor,
-    ) {
-        let (values, arm) = match weight {
-            Weight::Force => (&changes[..1], 1.0),
-            Weight::Moment => (&changes[1..2], 1.0),
-            Weight::Roll => (&changes[changes.len() - 2..], 1.0),
-            // A force on an arm turns the block alone.
-            Weight::ArmX => (&changes[..1], load.place.axis.re),
-            Weight::ArmY => (&changes[..1], load.place.axis.im),
-        };
-        sum.resize(values.len(), ZEROS);
-        let unit = times.of(*unit) * arm;
-        sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
+                }
+            },
+        );
+        [change, levered]
     }
 }
 
@@ -414,6 +379,9 @@ fn multiply(values: &mut Reals, factors: &[f64]) {
 
 /// Adds a complex number times the values.
 fn add(sum: &mut Complexes, unit: Complex64, values: &Complexes) {
+    if unit == Complex64::ZERO {
+        return;
+    }
     vectorised(
         #[inline(always)]
         || {

@@ -180,7 +180,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                     [(found.force[row], Vector::Force), (found.moment[row], Vector::Moment)]
                 {
                     let planar = known.planar(vector, k);
-                    let ([x, y], size) = (known.xy(vector, k), 3e-14 * (planar.size + 1e-9));
+                    let ([x, y], size) = (known.xy(vector, k), 2.0 * (planar.bound + 1e-23));
                     let there = [x, y, planar.forward, planar.backward()];
                     for (found, known) in found.iter().zip(there) {
                         assert!((found - known).norm() <= size, "{s} {k}: {found} {known}");
@@ -190,7 +190,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                 for (found, known) in found.torque[row].iter().zip([torque.roll, torque.crank]) {
                     let apart = (found - known).norm();
                     assert!(
-                        apart <= 3e-14 * torque.sizes[0].max(torque.sizes[1]),
+                        apart <= 2.0 * torque.bounds[0].max(torque.bounds[1]),
                         "{s} {k}: {found} {known}"
                     );
                 }

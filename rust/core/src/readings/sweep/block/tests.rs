@@ -36,12 +36,9 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
                             |k: usize| Complex64::new(c(6 * side + k), c(6 * side + k + 1));
                         complex(0) * wave(side, 0) + complex(2) * wave(side, 1) + complex(4)
                     };
-                    let (expected, bound) = ([part(0), part(1)], c(12));
-                    assert_eq!(block.bound(order, i), bound);
-                    assert_eq!(block.turning(order, i), expected.map(|p| snapped(p, bound)));
-                    let [x, y] = [expected[0] + expected[1], expected[0] - expected[1]];
-                    let xy = [x, -Complex64::i() * y].map(|p| snapped(p, bound));
-                    assert_eq!(block.phasors(order, i), xy);
+                    let planar = Planar { forward: part(0), backward_conj: part(1), bound: c(12) };
+                    assert_eq!(block.planar(order, i), planar);
+                    let xy = planar.xy(planar.bound);
                     assert_eq!(block.by_component(i).map(|all| all[order]), xy);
                 }
             }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::*;
 use crate::engine::{Engine, Hold, Station};
 use crate::numbers::error::Error;
-use crate::numbers::order::Order;
+use crate::readings::balance::Orders;
 use crate::readings::quantity::Quantity;
 use crate::readings::sweep::{Statistic, SweepAxes};
 use crate::{Angle, Cylinder};
@@ -38,8 +38,9 @@ fn cancellation_stops_at_the_next_stretch() {
             // Pieces of values times speeds are steps too.
             let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(ROWS_PER_TASK) } else { 0 };
             let axes = SweepAxes { bank_angle, rod_ratio, rpm, ..SweepAxes::default() };
-            let orders = vec![Order::whole(2).unwrap()];
-            let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
+            let orders = Orders::whole(&[2]).unwrap();
+            let sweep =
+                Sweep::new(engines.clone(), axes, &orders, None, true, &Cancel::new()).unwrap();
             // Raises the flag once a number of rows are done.
             let run = |after: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
@@ -52,7 +53,7 @@ fn cancellation_stops_at_the_next_stretch() {
                     Ok(())
                 };
                 let quantity = Quantity::FORCE;
-                let selection = Selection { quantity, scaling: None };
+                let selection = Selection { quantity, group: None };
                 let job = Job { sweep: &sweep, selection, width: 1, slow: false, cancel: &cancel };
                 let result =
                     sweep.at_each_speed(quantity, 1, &mut out, &cancel, |_, out, factor| {
