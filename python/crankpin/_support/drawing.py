@@ -74,16 +74,16 @@ class Plot:
         """Signature: the axes, the figure of several panels, and the options of the picture."""
         drawing = _drawing(self._kind)
         keywords = [*inspect.signature(drawing).parameters.values()][1:]
-        of_all = [name for name in FIRST if any(name == each.name for each in keywords)]
+        of_all = [name for name in FIRST if any(name == keyword.name for keyword in keywords)]
         places = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
         places = places if self._result is None else []
         parameters = [
             *places,
             inspect.Parameter("ax", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
             *(
-                each.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-                for each in sorted(keywords, key=lambda each: each.name not in of_all)
-                if each.name != "ax" and each.kind is not each.VAR_KEYWORD
+                keyword.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+                for keyword in sorted(keywords, key=lambda keyword: keyword.name not in of_all)
+                if keyword.name != "ax" and keyword.kind is not keyword.VAR_KEYWORD
             ),
             inspect.Parameter("style", inspect.Parameter.VAR_KEYWORD),
         ]

@@ -76,14 +76,14 @@ class Frames(Mapping[str, "Table"]):
 
     def text(self, rows: int | None = None) -> str:
         """Return the tables as text below each other, the first rows of each or all."""
-        return "\n\n".join(each.text(rows) for each in self._shown(rows))
+        return "\n\n".join(table.text(rows) for table in self._shown(rows))
 
     def __repr__(self) -> str:
         return self.text(SHOWN)
 
     def _repr_html_(self) -> str:
         rows = SHOWN_IN_NOTEBOOKS
-        return "".join(each.html(rows) for each in self._shown(rows))
+        return "".join(table.html(rows) for table in self._shown(rows))
 
 
 class Framed:
@@ -190,8 +190,8 @@ class Framed:
         """
         table = self._exported(frame, units)
         data = {
-            head: each.data if isinstance(each.data, np.ndarray) else list(each.data)
-            for head, each in table._distinct()
+            head: column.data if isinstance(column.data, np.ndarray) else list(column.data)
+            for head, column in table._distinct()
         }
         data_frame: pd.DataFrame = optional.library("pandas").DataFrame(data)
         data_frame.attrs.update(labels.attributes(table.loads))
@@ -232,8 +232,8 @@ class Framed:
             return optional.split_complex(whole) if split else whole
         table = self._exported(FIRST if frame is None else frame, units)
         arrays = {
-            head: ("row", each._array(), {"units": each.unit} if each.unit else {})
-            for head, each in table._distinct(units=False)
+            head: ("row", column._array(), {"units": column.unit} if column.unit else {})
+            for head, column in table._distinct(units=False)
         }
         attributes = {"title": table.title} | labels.attributes(table.loads)
         rows = optional.dataset(arrays, {}, attributes)
@@ -340,7 +340,7 @@ def _csv(table: Table) -> Iterator[str]:
     yield _lines([map(_inert, table.header)])
     for start in range(0, len(table), ROWS):
         part = slice(start, start + ROWS)
-        columns = (map(_inert, each._listed(part)) for each in table.columns)
+        columns = (map(_inert, column._listed(part)) for column in table.columns)
         yield _lines(zip(*columns, strict=True))
 
 

@@ -474,8 +474,10 @@ def firing_order(
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if not isinstance(values, str):
         listed = items(name, values, hint)
-        if any(isinstance(each, (float, np.floating)) for each in listed):
-            numbers = [float(each) if isinstance(each, np.floating) else each for each in listed]
+        if any(isinstance(value, (float, np.floating)) for value in listed):
+            numbers = [
+                float(value) if isinstance(value, np.floating) else value for value in listed
+            ]
             hint = f"{hint}; firing intervals are intervals_deg of Engine.from_firing_order"
             raise rejected(name, numbers, hint)
         return "-".join(shorten(number) for number in listed)
@@ -509,7 +511,9 @@ def _by_banks(name: str, typed: str, banks: Sequence[int], dummies: Collection[i
         place = int(match["number"] or match["turned"])
         members = [k for k, bank in enumerate(banks, start=1) if bank == of_letter.get(letter)]
         if not 1 <= place <= len(members):
-            known = ", ".join(f"{each} ({banks.count(bank)})" for each, bank in of_letter.items())
+            known = ", ".join(
+                f"{letter} ({banks.count(bank)})" for letter, bank in of_letter.items()
+            )
             raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
         return str(members[place - 1])
 
@@ -555,16 +559,16 @@ def _orders(
         values = values.tolist()  # Python's numbers, read in half the time of NumPy's
     listed = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
     try:
-        result = [one(each) for each in listed]
+        result = [one(value) for value in listed]
     except (TypeError, ValueError, OverflowError):
         # Of NumPy's infinite numbers a remainder would warn.
-        fractions = any(isinstance(each, float) and float(each) % 1.0 > 0.0 for each in listed)
+        fractions = any(isinstance(value, float) and float(value) % 1.0 > 0.0 for value in listed)
         if fractions and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
         raise rejected(name, values, hint) from None
-    for each in result:
-        if not 0 < each <= _core.HIGHEST_ORDER:
-            raise rejected(name, each, f"{hint}, up to {_core.HIGHEST_ORDER}")
+    for value in result:
+        if not 0 < value <= _core.HIGHEST_ORDER:
+            raise rejected(name, value, f"{hint}, up to {_core.HIGHEST_ORDER}")
     return result
 
 
@@ -662,7 +666,7 @@ def only_one_of(**values: object) -> None:
     """Reject two arguments unless exactly one of them is given."""
     if sum(value is not None for value in values.values()) != 1:
         name, value = values.popitem()
-        one = ", ".join(f"{each}=…" for each in [*values, name])
+        one = ", ".join(f"{argument}=…" for argument in [*values, name])
         raise rejected(name, value, f"give one of {one}")
 
 

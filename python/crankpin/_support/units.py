@@ -137,7 +137,7 @@ _settings: ContextVar[tuple[tuple[Shown, bool], ...]] = ContextVar("settings", d
 def read(text: object, name: str = "units") -> Setting:
     """Return the units that a text names."""
     found: Setting = {}
-    for word in filter(None, (each.strip() for each in inputs.text(name, text, HINT).split(","))):
+    for word in filter(None, (part.strip() for part in inputs.text(name, text, HINT).split(","))):
         unit = symbol(word) or word.replace("*", "·")
         try:
             dimension = _dimension(_terms(unit))
@@ -246,9 +246,9 @@ class Text(str):
     def __new__(cls, *parts: str | Figure) -> Self:
         """Return the text of words, other texts and figures."""
         flat = [
-            each for part in parts for each in (part.parts if isinstance(part, Text) else (part,))
+            piece for part in parts for piece in (part.parts if isinstance(part, Text) else (part,))
         ]
-        text = super().__new__(cls, "".join(_part(each, {}) for each in flat))
+        text = super().__new__(cls, "".join(_part(part, {}) for part in flat))
         text.parts = tuple(flat)
         return text
 
@@ -265,7 +265,7 @@ def shown(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
     """Return a text with its figures as a setting shows them."""
     chosen = current() if setting is None else setting
     parts = text.parts if isinstance(text, Text) else (text,)
-    return "".join(_part(each, chosen) for each in parts)
+    return "".join(_part(part, chosen) for part in parts)
 
 
 def joined(separator: str, texts: Iterable[str]) -> Text:
@@ -288,7 +288,7 @@ def figure(value: float, unit: str, digits: int, most: float | None = None) -> T
 def factor_of(text: str, setting: Mapping[Dimension, str] | None = None) -> float:
     """Return the factor of numbers under a head, ``force, N``, in the unit that is shown."""
     parts = text.parts if isinstance(text, Text) else ()
-    alone = [each.unit for each in parts if isinstance(each, Figure) and not each.values]
+    alone = [part.unit for part in parts if isinstance(part, Figure) and not part.values]
     return convert(alone[-1], setting).factor if alone else 1.0
 
 

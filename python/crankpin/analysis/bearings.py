@@ -243,7 +243,7 @@ class BearingLoads(InsideLoads, Labelled):
     @cached_property
     def crankpins(self) -> tuple[tuple[int, ...], ...]:
         """Numbers of the cylinders whose rods share each crankpin, from front to flywheel."""
-        return tuple(each.cylinders for each in crankpins(self.engine))
+        return tuple(crankpin.cylinders for crankpin in crankpins(self.engine))
 
     @property
     def whole_crankpin(self) -> Quantity[np.float64, NDArray[np.float64]]:
@@ -324,7 +324,7 @@ class BearingLoads(InsideLoads, Labelled):
         if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
             raise inputs.rejected("z", z, "give the places of two bearings, m")
         front, rear = places
-        loads = [on_shaft_bearings(each, front, rear, self.rpm) for each in self.engine.shafts]
+        loads = [on_shaft_bearings(shaft, front, rear, self.rpm) for shaft in self.engine.shafts]
         return np.abs(np.array(loads).reshape(-1, 2))
 
     @property
@@ -503,7 +503,7 @@ class BearingLoads(InsideLoads, Labelled):
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
         over = "of a cycle" if self.at_any_angle else f"at {len(self.theta_deg)} crank angles"
         least, most = self._range("rod_force")
-        in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
+        in_tension = [sum(to - begin for begin, to in arcs) for arcs in self.tension_deg]
         columns = {
             "crankpin": self.crankpin.peak,
             "mean": self.crankpin.mean_magnitude,
@@ -516,7 +516,7 @@ class BearingLoads(InsideLoads, Labelled):
             f"{where}, largest loads {over}",
             (
                 _counted("cylinder", len(most)),
-                *(Column(name, each, "N") for name, each in columns.items()),
+                *(Column(name, values, "N") for name, values in columns.items()),
                 Column("pulled for", tuple(in_tension), "°"),
             ),
             loads=self.loads_counted,
@@ -551,8 +551,8 @@ class BearingLoads(InsideLoads, Labelled):
         return Table(
             "Bearings of balance shafts beside the end main bearings, whose loads turn with them",
             (
-                Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
-                Column("speed ratio", tuple(each.ratio for each in shafts)),
+                Column("shaft", tuple(shaft.name or k for k, shaft in enumerate(shafts, start=1))),
+                Column("speed ratio", tuple(shaft.ratio for shaft in shafts)),
                 Column("front", tuple(front), "N"),
                 Column("rear", tuple(rear), "N"),
             ),
@@ -568,7 +568,7 @@ class BearingLoads(InsideLoads, Labelled):
                 _counted("main", len(self.main)),
                 *([cranks] if self.main_crank.any() else ()),
                 Column("z", self.main_z, "m"),
-                *(Column(name, each, "N") for name, each in loads.items()),
+                *(Column(name, values, "N") for name, values in loads.items()),
             ),
             loads=self.loads_counted,
         )
@@ -579,8 +579,8 @@ def on_shaft_bearings(
 ) -> NDArray[np.complex128]:
     """Return what a balance shaft puts on its two bearings at θ = 0, x + iy, N."""
     forces = [
-        (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
-        for each in shaft.unbalances
+        (unbalance.amount * complex(direction(inputs.degrees(unbalance.angle_deg))), unbalance.z)
+        for unbalance in shaft.unbalances
     ]
     loads = np.array(_core.shared(forces, front, rear), dtype=np.complex128)
     return loads * (shaft.ratio * inputs.angular_speed(rpm)) ** 2

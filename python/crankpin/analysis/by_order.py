@@ -238,7 +238,7 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
             keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
         unit, words = quantity.unit, quantity.words
         title: str = units.headed(words, unit)
-        coords = {name: each for name, each in quantity.coords.items() if name in self.dims}
+        coords = {name: values for name, values in quantity.coords.items() if name in self.dims}
         if coords:
             columns = export.points(coords, len(keys))
             columns += [
@@ -340,25 +340,30 @@ class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Gen
             return self._table_by_point()
         parts = () if self.order == ALL else ("forward", "backward")
         rows: list[tuple[str | float | None, ...]] = []
-        for each in self._each():
+        for quantity in self._each():
             beside: list[float | None] = [None] * (2 + len(parts))
-            if each.kind.planar:
-                beside = [*each.peak_xy.tolist(), *(abs(getattr(each, part)) for part in parts)]
-            status = () if self.order == ALL else (each.status,)
-            row = (*beside[:2], each.peak, *beside[2:], *status)
-            rows.append((each.kind.words, each.unit, *row))
+            if quantity.kind.planar:
+                beside = [
+                    *quantity.peak_xy.tolist(),
+                    *(abs(getattr(quantity, part)) for part in parts),
+                ]
+            status = () if self.order == ALL else (quantity.status,)
+            row = (*beside[:2], quantity.peak, *beside[2:], *status)
+            rows.append((quantity.kind.words, quantity.unit, *row))
         heads = ["quantity", "unit", "x", "y", "largest", *parts]
         heads += [] if self.order == ALL else ["status"]
         speed = labels.at_speed(self.result._attributes["rpm"])
         title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
-        row_units = [each.unit for each in self._each()]
+        row_units = [quantity.unit for quantity in self._each()]
         return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""
         shown = list(self._each())
         columns = export.points(self.result.coords, len(shown))
-        columns += [Column(each.kind.vector_symbol, each.peak, each.unit) for each in shown]
+        columns += [
+            Column(quantity.kind.vector_symbol, quantity.peak, quantity.unit) for quantity in shown
+        ]
         title = f"Peaks of {self._which}"
         return Table(title, tuple(columns), loads=self.loads_counted)
 

@@ -147,9 +147,9 @@ class Comparison(Tabled):
     """Balance of the engine after the change."""
 
     def __post_init__(self) -> None:
-        for name, each in (("before", self.before), ("after", self.after)):
-            if not isinstance(each, Balance):
-                raise inputs.rejected(name, each, "use crankpin.compare")
+        for name, state in (("before", self.before), ("after", self.after)):
+            if not isinstance(state, Balance):
+                raise inputs.rejected(name, state, "use crankpin.compare")
         if self.before.orders != self.after.orders or self.before.rpm != self.after.rpm:
             fault = "is at different orders or speeds than before"
             raise inputs.faulty("after", fault, "use crankpin.compare")
@@ -222,7 +222,7 @@ class Comparison(Tabled):
             rows += [(before[k], after[k], change[k]) for k in shown]
             row_units += [kind.unit] * (len(shown) + (len(shown) > 1))
             if len(shown) > 1:
-                total = [getattr(each.total, name).peak for each in (self.before, self.after)]
+                total = [getattr(balance.total, name).peak for balance in (self.before, self.after)]
                 texts.append((head, ALL))
                 rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
@@ -247,7 +247,7 @@ class Comparison(Tabled):
     @property
     def names(self) -> tuple[str, str]:
         """Names of the engines; ``"before"`` and ``"after"`` if they have one name."""
-        first, second = (labels.name_of(each.engine) for each in (self.before, self.after))
+        first, second = (labels.name_of(balance.engine) for balance in (self.before, self.after))
         return (first, second) if first != second else ("before", "after")
 
     @property

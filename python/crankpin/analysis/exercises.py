@@ -123,7 +123,7 @@ class Exercise(Tabled):
 
     def __post_init__(self) -> None:
         steps: object = self.steps
-        sound = isinstance(steps, tuple) and all(isinstance(each, Step) for each in steps)
+        sound = isinstance(steps, tuple) and all(isinstance(step, Step) for step in steps)
         if not (sound and steps):
             raise inputs.rejected("steps", steps, "use cp.exercise")
         super().__post_init__()

@@ -94,8 +94,8 @@ class Explanation(Tabled):
     def table(self) -> Table:
         """Sentences, and what each is about."""
         rows = [
-            (each.kind, QUANTITIES[each.quantity].words if each.quantity else "–", text)
-            for each, text in zip(self.findings, self.sentences, strict=True)
+            (finding.kind, QUANTITIES[finding.quantity].words if finding.quantity else "–", text)
+            for finding, text in zip(self.findings, self.sentences, strict=True)
         ]
         return Table.from_rows(self._title, ["finding", "quantity", "sentence"], rows)
 
@@ -133,7 +133,7 @@ class Explanation(Tabled):
             first = min(inputs.whole("count", count, 0), sys.maxsize)
             explained = _core.explain(engine_core(self.engine), self.rpm, vectors=True)
             said = self._said(explained, first)
-        items = "".join(f"<li>{html.escape(each)}</li>" for each in said)
+        items = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in said)
         return f"<ul>{items}</ul>"
 
     def _said(self, explained: _core.Explanation, count: int | None = None) -> list[str]:

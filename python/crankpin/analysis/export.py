@@ -96,32 +96,34 @@ def dataset(
         Name of a variable → its values where they are not those of the result, as of dask.
     """
     listed = [
-        (variable(each.name, what), each, what)
-        for each in quantities
-        for what in result._in_datasets(each.name)
+        (variable(quantity.name, what), quantity, what)
+        for quantity in quantities
+        for what in result._in_datasets(quantity.name)
     ]
-    coords = union([each for _, each, _ in listed])
+    coords = union([quantity for _, quantity, _ in listed])
     if lazy is None:
         fitting(
             coords,
             *(
-                (each._dims_of(what), 16 if "order" in each.dims and what in COMPLEX else 8)
-                for _, each, what in listed
+                (quantity._dims_of(what), 16 if "order" in quantity.dims and what in COMPLEX else 8)
+                for _, quantity, what in listed
             ),
         )
     arrays = {
         name: (
-            each._dims_of(what),
-            lazy[name] if lazy is not None else each._picked(what, result.read(each.name, what)),
-            {"units": each.kind.xarray_unit} if each.unit else {},
+            quantity._dims_of(what),
+            lazy[name]
+            if lazy is not None
+            else quantity._picked(what, result.read(quantity.name, what)),
+            {"units": quantity.kind.xarray_unit} if quantity.unit else {},
         )
-        for name, each, what in listed
+        for name, quantity, what in listed
     }
     attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
-    for each in quantities:
-        whole = each.name.partition(".")[0]
+    for quantity in quantities:
+        whole = quantity.name.partition(".")[0]
         if whole in result.error_bound:
-            attributes[f"{variable(each.name)}_error_bound"] = result.error_bound[whole]
+            attributes[f"{variable(quantity.name)}_error_bound"] = result.error_bound[whole]
     return optional.dataset(arrays, labels.coordinates(coords), attributes)
 
 
@@ -141,7 +143,7 @@ def variable(quantity: str, what: str = VALUES) -> str:
 
 def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Return the coordinates of some quantities: those of all first, axes last."""
-    known = {name: values for each in quantities for name, values in each.coords.items()}
+    known = {name: values for quantity in quantities for name, values in quantity.coords.items()}
     return {name: known[name] for name in sorted(known, key=AXES.count)}
 
 
@@ -196,12 +198,12 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
 
 def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:
     """Return values of each quantity and component, below each other."""
-    lengths = [tuple(d for d in each.dims if d not in AXES) for each in quantities]
+    lengths = [tuple(d for d in quantity.dims if d not in AXES) for quantity in quantities]
     coords = {name: values for name, values in union(quantities).items() if name not in AXES}
     parts = [
-        (each, dims, component, figures)
-        for each, dims in zip(quantities, lengths, strict=True)
-        for component, figures in components(each).items()
+        (quantity, dims, component, figures)
+        for quantity, dims in zip(quantities, lengths, strict=True)
+        for component, figures in components(quantity).items()
     ]
     heads = list(dict.fromkeys(head for *_, figures in parts for head in figures))
     sizes = [math.prod(len(coords[d]) for d in dims) for _, dims, *_ in parts]
@@ -224,7 +226,7 @@ def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -
         for name in coords:
             pieces = [along(name, dims, n) for (_, dims, *_), n in zip(parts, sizes, strict=True)]
             columns.append(Column(name, np.concatenate(pieces), digits=10))
-    columns.append(repeated("quantity", (each.name for each, *_ in parts)))
+    columns.append(repeated("quantity", (kind.name for kind, *_ in parts)))
     columns.append(repeated("component", (component for _, _, component, _ in parts)))
     for head in heads:
         pieces = [
@@ -232,5 +234,5 @@ def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -
             for (*_, figures), n in zip(parts, sizes, strict=True)
         ]
         columns.append(Column(head, np.concatenate(pieces)))
-    columns.append(repeated("unit", (each.unit for each, *_ in parts)))
+    columns.append(repeated("unit", (kind.unit for kind, *_ in parts)))
     return Table(title, tuple(columns), loads=loads, row_units=tuple(columns[-1].data))

@@ -340,14 +340,14 @@ def firings(
     """Return every way to fire in an order; see :meth:`Engine.firing_schedules`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
     return tuple(
-        Firing._of(each, engine) for each in _core.Firing.all_named(engine._core, text, count)
+        Firing._of(core, engine) for core in _core.Firing.all_named(engine._core, text, count)
     )
 
 
 def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
     """Return every way to fire; see :meth:`Engine.firing_orders`."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
-    return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine._core, count))
+    return tuple(Firing._of(core, engine) for core in _core.Firing.all(engine._core, count))
 
 
 @documented()

@@ -685,4 +685,4 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - arguments of functions of NumPy
         return np.asarray(value)
     if type(value) in (list, tuple):
         return type(value)(map(_plain, value))
-    return {key: _plain(each) for key, each in value.items()} if type(value) is dict else value
+    return {key: _plain(inner) for key, inner in value.items()} if type(value) is dict else value

@@ -71,7 +71,7 @@ class Request(NamedTuple):
         if name == "z" or not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
             return self._replace(reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
         hint = "point is a position z along the crank, or (x, y, z), m"
-        listed = [inputs.finite(name, each) for each in inputs.items(name, point, hint)]
+        listed = [inputs.finite(name, coordinate) for coordinate in inputs.items(name, point, hint)]
         if len(listed) != 3:
             raise inputs.rejected(name, point, hint)
         x, y, z = listed
@@ -111,7 +111,7 @@ class Request(NamedTuple):
     def named(self, quantities: tuple[str, ...], names: tuple[str, ...]) -> tuple[str, ...]:
         """Return the named quantities; if none is named, all with their parts."""
         known = self.quantities
-        parts = [part for each in known for part in parts_of(each, names)]
+        parts = [part for quantity in known for part in parts_of(quantity, names)]
         return check_quantities(quantities, (*known, *parts))
 
     @staticmethod
@@ -131,7 +131,7 @@ class Request(NamedTuple):
             names = ("inertia",) if of is None else of.causes
             if not names:
                 raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
-            known = [f"{whole}.{each}" for each in self.parts(whole, names)]
+            known = [f"{whole}.{part}" for part in self.parts(whole, names)]
             inputs.one_of("quantity", quantity, known)
         if self._has_torque or kind.planar:
             return

@@ -234,12 +234,12 @@ class VanishingOrders(Tabled):
     @property
     def force(self) -> Verdicts:
         """Shaking force: verdicts on the whole, and on x, y, forward and backward."""
-        return Verdicts._of_vector({each: self._verdicts("force", each) for each in COMPONENTS})
+        return Verdicts._of_vector({axis: self._verdicts("force", axis) for axis in COMPONENTS})
 
     @property
     def moment(self) -> Verdicts:
         """Rocking moment: verdicts on the whole, on x (pitch), y (yaw), forward and backward."""
-        return Verdicts._of_vector({each: self._verdicts("moment", each) for each in COMPONENTS})
+        return Verdicts._of_vector({axis: self._verdicts("moment", axis) for axis in COMPONENTS})
 
     @property
     def torque(self) -> Verdicts:

@@ -35,7 +35,7 @@ def _homes() -> dict[str, str]:
     modules are imported.
     """
     homes = dict[str, str]()
-    for module in sorted(each.name for each in pkgutil.iter_modules(__path__)):
+    for module in sorted(module_info.name for module_info in pkgutil.iter_modules(__path__)):
         try:
             source = Path(__file__).with_name(f"{module}.py").read_text(encoding="utf-8")
         except OSError:
@@ -76,9 +76,9 @@ def _text(argv: Sequence[str] | None) -> str:
     typed = [*(sys.argv[1:] if argv is None else argv)]
     if typed[:2] == ["mounts", "fit"]:
         typed[:2] = ["mounts-fit"]
-    for each in typed:
-        if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
-            raise rejected(each.removesuffix("=--"), "--", "give a value")
+    for word in typed:
+        if word.startswith("--") and word.endswith("=--"):  # on which argparse fails
+            raise rejected(word.removesuffix("=--"), "--", "give a value")
     try:
         names = [name for name in typed[:1] if name in ORDER] or ORDER
         arguments = _parser(names).parse_args(typed)
@@ -94,8 +94,8 @@ def _text(argv: Sequence[str] | None) -> str:
                 printed = outputs.shown(given, arguments.run)
         except InputError as error:
             raise error_in_options(error, arguments.options, vars(arguments)) from None
-        for each in given.said:
-            outputs.say(each)
+        for word in given.said:
+            outputs.say(word)
         return printed
 
 

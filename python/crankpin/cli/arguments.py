@@ -212,7 +212,7 @@ class Given:
         name, _, rest = text.partition(":")
         fields = dict[str, Any]()
         for part in re.split(r"\s+(?=\w+=)", rest.strip()):
-            key, _, value = (each.strip() for each in part.partition("="))
+            key, _, value = (side.strip() for side in part.partition("="))
             if key not in LOAD_FIELDS or not value:
                 hint = f'give "NAME: on=shaft force=2:8 z=-0.1", of {", ".join(LOAD_FIELDS)}'
                 raise rejected(flag, text, hint)
@@ -222,7 +222,7 @@ class Given:
                 rows = _core.read_amplitudes(flag, value, unit, plain)
                 fields[argument] = of_rows(rows, table=any(len(row) > 3 for row in rows))
             elif unit:
-                listed = [self.one(flag, each, unit) for each in value.split("/")]
+                listed = [self.one(flag, part, unit) for part in value.split("/")]
                 fields[argument] = listed if len(listed) > 1 else listed[0]
             else:
                 fields[argument] = {"yes": True, "no": False}.get(value, value)
@@ -257,7 +257,7 @@ class Given:
     def quantity(self, engines: Iterable[Engine]) -> str:
         """Return ``--quantity``; by default moment, or force if no cylinder has a lever."""
         typed: str | None = self.text("--quantity")
-        return typed or ("moment" if any(np.ptp(each.z) for each in engines) else "force")
+        return typed or ("moment" if any(np.ptp(engine.z) for engine in engines) else "force")
 
     def orders(self) -> Orders:
         """Return the orders of ``--orders``, or "auto"."""
@@ -298,9 +298,9 @@ class Given:
         """Return the arguments of a function that were typed, read as it declares them."""
         plain = inspect.unwrap(function)
         return {
-            each.argument: self.value(each)
-            for each in self.options
-            if each.function is plain and self._typed[each.dest] not in (None, False)
+            option.argument: self.value(option)
+            for option in self.options
+            if option.function is plain and self._typed[option.dest] not in (None, False)
         }
 
     def value(self, option: Option) -> Any:  # noqa: ANN401 - of any type
@@ -325,9 +325,9 @@ class Given:
     def angles(self, flag: str, _: str = "°", *, text: str | None = None) -> list[str]:
         """Return angles as text, which may be fractions."""
         text = self.text(flag) if text is None else text
-        typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
-        angles = [inputs.angle(flag, each) for each in typed]
-        decimals = [float(each) for each in typed if "." in each and "/" not in each]
+        typed = [part.strip().removesuffix("deg").rstrip("°") for part in text.split(",")]
+        angles = [inputs.angle(flag, text) for text in typed]
+        decimals = [float(text) for text in typed if "." in text and "/" not in text]
         checks.radians(flag, text, decimals)
         return angles
 

@@ -58,10 +58,10 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     firings = engine.firing_orders(strokes=strokes)
     shown = firings if csv else firings[:MOST_SHOWN]
     listed = [
-        (each.firing_order, "even" if each.even and not csv else each.intervals_text)
-        for each in shown
+        (firing.firing_order, "even" if firing.even and not csv else firing.intervals_text)
+        for firing in shown
     ]
-    rows = np.array([[each.unevenness_deg] for each in shown])
+    rows = np.array([[firing.unevenness_deg] for firing in shown])
     name = labels.name_of(engine)
     table = Table.from_rows(
         f"{name}: {firings[0].strokes}-stroke, most even first",

@@ -98,7 +98,7 @@ def mass(flag: str, what: str) -> Option:
 def _bob_weight(given: Given) -> Shown:
     engine = given.engine("bob-weight")
     if (moving := given.optional("--reciprocating-mass", "kg")) is not None:
-        cylinders = [each.replace(reciprocating_mass=moving) for each in engine.cylinders]
+        cylinders = [cylinder.replace(reciprocating_mass=moving) for cylinder in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
     if (turning := given.optional("--rotating-mass", "kg")) is not None:
         engine = engine.replace(rotating_mass=turning)

@@ -153,12 +153,15 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         engine = engine.replace(firing_order=order)
     kind, _, load = (typed or "").partition(":")
     named = typed is None or kind in EXAMPLES or typed == WITHOUT
-    of_a_file = [each.label for each in OF_A_FILE if given.text(each.label)]
+    of_a_file = [option.label for option in OF_A_FILE if given.text(option.label)]
     if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
     bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
-        cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]
+        cylinders = [
+            cylinder if bore is None else cylinder.replace(bore=bore)
+            for cylinder in engine.cylinders
+        ]
         return engine.replace(cylinder=cylinders, crankcase=crankcase), ""
     if typed == WITHOUT:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
@@ -191,9 +194,11 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
 def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str]:
     """Return the cylinders with the bore typed, and a note where one had to be assumed."""
     if bore is not None:
-        return [each.replace(bore=bore) for each in engine.cylinders], ""
-    cylinders = [each.replace(bore=each.bore or each.stroke) for each in engine.cylinders]
-    known = all(each.bore for each in engine.cylinders)
+        return [cylinder.replace(bore=bore) for cylinder in engine.cylinders], ""
+    cylinders = [
+        cylinder.replace(bore=cylinder.bore or cylinder.stroke) for cylinder in engine.cylinders
+    ]
+    known = all(cylinder.bore for cylinder in engine.cylinders)
     return cylinders, "" if known else "Bores that are not known are taken to equal the stroke.\n"
 
 
@@ -239,13 +244,13 @@ def _trace(given: Given) -> Shown:
     traces, motored = loaded("file", given.text("file")), given.text("--motored")
     without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
     prepared = [
-        prepare_trace(each, cylinder, motored=by_motoring, **given.keywords(prepare_trace))
-        for each, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
+        prepare_trace(recorded, cylinder, motored=by_motoring, **given.keywords(prepare_trace))
+        for recorded, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
-    cycles = [each.cycle for each in prepared]
+    cycles = [trace.cycle for trace in prepared]
     with_mean = engine.replace(cylinder=cylinders).with_cycle(cycles if several else cycles[0])
     whole = OfCylinders(tuple(prepared)) if several else prepared[0]
-    note += f"Read: {'; '.join(dict.fromkeys(each.origin for each in traces))}.\n"
+    note += f"Read: {'; '.join(dict.fromkeys(trace.origin for trace in traces))}.\n"
     return Shown(whole.frames, whole, engine=with_mean, note=note)
 
 
@@ -268,25 +273,25 @@ class OfCylinders(NamedTuple):
         return Frames({frame: partial(stacked, frame, title) for frame, title in titles.items()})
 
     def _stacked(self, frame: str, title: str) -> Table:
-        tables = [each.frames[frame] for each in self.prepared]
-        numbers = tuple(k for k, each in enumerate(tables, 1) for _ in each.columns[0].values)
+        tables = [prepared.frames[frame] for prepared in self.prepared]
+        numbers = tuple(k for k, table in enumerate(tables, 1) for _ in table.columns[0].values)
         columns = [
-            changed(same[0], data=tuple(value for each in same for value in each.values))
-            for same in zip(*(each.columns for each in tables), strict=True)
+            changed(same[0], data=tuple(value for column in same for value in column.values))
+            for same in zip(*(table.columns for table in tables), strict=True)
         ]
         return changed(
             tables[0],
             title=title,
             columns=(Column("cylinder", numbers), *columns),
-            row_units=tuple(unit for each in tables for unit in each.row_units),
+            row_units=tuple(unit for table in tables for unit in table.row_units),
         )
 
     def plot(self) -> Axes:
         """Draw the mean of each cylinder in the band of its cycles."""
         first, *others = self.prepared
         ax: Axes = first.traces.plot(label="cylinder 1")
-        for k, each in enumerate(others, 2):
-            each.traces.plot(ax, label=f"cylinder {k}")
+        for k, prepared in enumerate(others, 2):
+            prepared.traces.plot(ax, label=f"cylinder {k}")
         return ax
 
 

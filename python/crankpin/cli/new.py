@@ -75,19 +75,19 @@ def _pin_split(given: Given, flag: str) -> str:
 
 def _cranks(given: Given, flag: str) -> list[tuple[float, float, int]]:
     """Return further crankshafts: the axis of each, m, and its ratio."""
-    return [_crank(given, flag, each.split(":")) for each in given.text(flag).split(",")]
+    return [_crank(given, flag, place.split(":")) for place in given.text(flag).split(",")]
 
 
 def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
     if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
         raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
-    x, y = (given.one(flag, each, "m") for each in parts[:2])
+    x, y = (given.one(flag, coordinate, "m") for coordinate in parts[:2])
     return x, y, int(parts[2])
 
 
 LAYOUT = {
-    each.label: each
-    for each in (
+    shape.label: shape
+    for shape in (
         _of_shape(Engine.vee, "bank_angle_deg"),
         _of_shape(Engine.vee, "throws_deg"),
         _of_shape(Engine.vee, "pin_split_deg", read=_pin_split, more=", or type even"),
@@ -165,7 +165,7 @@ def _parameters(base: presets.Layout) -> Mapping[str, inspect.Parameter]:
 def _flags(base: presets.Layout) -> dict[str, str]:
     """Return the options of a layout that it takes, with the argument of its builder."""
     taken = _names(base)
-    return {flag: each.argument for flag, each in LAYOUT.items() if each.argument in taken}
+    return {flag: option.argument for flag, option in LAYOUT.items() if option.argument in taken}
 
 
 def _names(base: presets.Layout) -> set[str]:
@@ -274,8 +274,8 @@ def _on_mounts(given: Given, engine: Engine) -> Powertrain | None:
         given.listed("--body", inertia),
     )
     carried = []
-    for each in mounts:
-        fields = _fields(given, "--mount", each, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
+    for mount in mounts:
+        fields = _fields(given, "--mount", mount, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
         stiffness = given.listed("--mount", fields[2])
         along = stiffness if len(stiffness) > 1 else stiffness[0]
         loss = given.one("--mount", fields[3]) if len(fields) > 3 else 0.0
@@ -350,7 +350,7 @@ def _check_count(given: Given, kind: str, base: presets.Layout, engine: Engine) 
     whole = base.build(base.cylinder, base.spacing)
     if len(engine) == len(whole):
         return
-    flag = next((each for each in COUNTING if given.text(each) is not None), "--throws")
+    flag = next((option for option in COUNTING if given.text(option) is not None), "--throws")
     hint = f"{kind} has {len(whole)} cylinders, this makes {len(engine)}"
     if base.builder in ("vee", "flat", "boxer", "inline"):
         throws = len(base.arguments["throws_deg"])
@@ -402,13 +402,13 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
     """Return the arguments of the builder that options give."""
     takes, flags = _parameters(base), _flags(base)
     changes = dict[str, Any]()
-    for flag, each in LAYOUT.items():
+    for flag, figure in LAYOUT.items():
         if given.text(flag) is None:
             continue
         if flag not in flags:
             hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
             raise rejected(flag, given.text(flag), hint)
-        changes[each.argument] = given.value(each)
+        changes[figure.argument] = given.value(figure)
     if given.text("--shared-pins"):
         if "shared_pins" not in _names(base):
             hint = "pins follow from a firing order in new firing-order alone; leave it out"
@@ -453,14 +453,17 @@ def _parts(
     """
     lengths = {flag: given.numbers(flag, "m", infinite=flag == "--rod-length") for flag in LENGTHS}
     masses = {flag: given.numbers(flag, "kg") for flag in MASSES}
-    typed = {flag: each for flag, each in (lengths | masses).items() if each is not None}
-    count = max((len(each) for each in typed.values()), default=1)
-    for flag, each in typed.items():
-        if len(each) not in (1, count):
+    typed = {flag: text for flag, text in (lengths | masses).items() if text is not None}
+    count = max((len(values) for values in typed.values()), default=1)
+    for flag, values in typed.items():
+        if len(values) not in (1, count):
             raise rejected(flag, given.text(flag), f"give one, or {count}, one for each cylinder")
 
     def of(which: dict[str, list[float] | None], k: int) -> dict[str, float | None]:
-        return {flag: None if each is None else each[k % len(each)] for flag, each in which.items()}
+        return {
+            flag: None if values is None else values[k % len(values)]
+            for flag, values in which.items()
+        }
 
     remarks: list[list[str]] = [[] for _ in range(count)]
     pairs = [_parts_of_one(given, of(lengths, k), of(masses, k), remarks[k]) for k in range(count)]

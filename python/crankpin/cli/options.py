@@ -271,7 +271,7 @@ def _spoken(function: Callable[..., Any], text: str) -> str:
 
 def keywords(function: Callable[..., Any], arguments: str, group: str = "") -> list[Option]:
     """Return the options of several arguments of a function, named in one text."""
-    return [keyword(function, each, group=group) for each in arguments.split()]
+    return [keyword(function, name, group=group) for name in arguments.split()]
 
 
 class Help(argparse._HelpAction):
@@ -305,9 +305,9 @@ def command(
     ``refused`` names options that the help leaves out beside what is typed before it.
     """
     taken = list[Option]()
-    for each in options:
-        taken += [each] if isinstance(each, Option) else map(option, each.split())
-    if any(each.names == ("name",) and each.settings == OPTIONS["name"] for each in taken):
+    for flag in options:
+        taken += [flag] if isinstance(flag, Option) else map(option, flag.split())
+    if any(option.names == ("name",) and option.settings == OPTIONS["name"] for option in taken):
         taken.append(option("--add-load"))
 
     def register(run: Run) -> Run:
@@ -325,10 +325,10 @@ def command(
             parser.add_argument("-h", "--help", action=Help, help=words)
             parser.set_defaults(run=run, options=taken)
             groups: dict[str, argparse._ActionsContainer] = {"": parser}
-            for each in taken:
-                if each.group not in groups:
-                    groups[each.group] = parser.add_argument_group(each.group)
-                groups[each.group].add_argument(*each.names, **each.settings)
+            for option in taken:
+                if option.group not in groups:
+                    groups[option.group] = parser.add_argument_group(option.group)
+                groups[option.group].add_argument(*option.names, **option.settings)
 
         add.__module__ = run.__module__
         COMMANDS[name] = add

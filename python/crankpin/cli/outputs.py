@@ -107,7 +107,7 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
     small = {
         order
         for k, order in enumerate(balance.orders)
-        if all(each[k] <= labels.MATTERS * each.max() for each in peaks)
+        if all(sizes[k] <= labels.MATTERS * sizes.max() for sizes in peaks)
     }
     heads = table.columns[0].values
     kept = [k for k, order in enumerate(heads) if order not in small]
@@ -115,7 +115,9 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
         f"Not shown: {len(heads) - len(kept)} orders (their peaks are below {labels.MATTERS:g} of "
         "the largest); --csv prints them."
     )
-    columns = (changed(each, data=tuple(each.values[k] for k in kept)) for each in table.columns)
+    columns = (
+        changed(column, data=tuple(column.values[k] for k in kept)) for column in table.columns
+    )
     row_units = tuple(table.row_units[k] for k in kept if table.row_units)
     notes = units.joined("\n", [table.note, note]) if len(kept) < len(heads) else table.note
     return changed(table, columns=tuple(columns), note=notes, row_units=row_units)

@@ -73,7 +73,7 @@ def _with_phases(balance: Balance) -> Table:
     columns = [keys]
     for k, peak in enumerate(peaks):
         of_rows = [phasors[key][k] if key in phasors else 0.0 for key in keys.values]
-        phases = tuple(float(np.angle(each, deg=True)) if each else None for each in of_rows)
+        phases = tuple(float(np.angle(phasor, deg=True)) if phasor else None for phasor in of_rows)
         columns += [peak, Column(f"{peak.name.strip('|')} phase", phases, "°", digits=4)]
     return changed(balance.table, columns=tuple(columns))
 
@@ -182,9 +182,9 @@ def _frames_of(result: Sweep, given: Given) -> tuple[Frames, str]:
         return Frames(
             {
                 str(name): partial(
-                    Table.from_rows, f"{title}: {how}", heads, swept, each, decimals, loads=loads
+                    Table.from_rows, f"{title}: {how}", heads, swept, engine, decimals, loads=loads
                 )
-                for name, title, each in of_engines
+                for name, title, engine in of_engines
             }
         ), note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]

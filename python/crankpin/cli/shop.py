@@ -154,8 +154,8 @@ def _amounts(given: Given) -> Any:  # noqa: ANN401 - an array
     """Return unbalances, g·mm."""
     plain = given.text("--units") is None
     typed = given.text("--amounts").split(",")
-    parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed]
-    return np.round([given.one("--amounts", each, "kg·m") / G_MM for each in parts], 9)
+    parts = [f"{text}g·mm" if plain and _is_plain(text) else text for text in typed]
+    return np.round([given.one("--amounts", part, "kg·m") / G_MM for part in parts], 9)
 
 
 def _is_plain(text: str) -> bool:
@@ -182,11 +182,11 @@ def _is_plain(text: str) -> bool:
 def _match(given: Given) -> Shown:
     ends = [given.numbers(flag, "kg") for flag in ("--small-ends", "--big-ends")]
     rods = None
-    if any(each is not None for each in ends):
-        for flag, each in zip(("--small-ends", "--big-ends"), ends, strict=True):
-            if each is None:
+    if any(masses is not None for masses in ends):
+        for flag, masses in zip(("--small-ends", "--big-ends"), ends, strict=True):
+            if masses is None:
                 raise inputs.faulty(flag, "is left out", "rods have --small-ends and --big-ends")
-        small, big = (each or [] for each in ends)
+        small, big = (masses or [] for masses in ends)
         if len(small) != len(big):
             hint = f"give as many --big-ends as --small-ends, {len(small)}"
             raise inputs.faulty("--big-ends", f"has {len(big)} masses", hint)

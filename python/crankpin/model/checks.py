@@ -61,7 +61,7 @@ def hardware(core: _core.Engine, *, of_shafts: bool) -> None:
 
 def bounds(core: _core.Engine, given: Iterable[float]) -> None:
     """Warn of bounds of counterweights in other units, kg·m; an infinite one is none."""
-    largest = max((each for each in given if each < math.inf), default=0.0)
+    largest = max((value for value in given if value < math.inf), default=0.0)
     _report(_core.figure_warnings(core, "kg·m", "bound", largest))
 
 
@@ -75,15 +75,15 @@ def place(core: _core.Engine, name: str, *at: float | None, middle: float | None
 
     With ``middle`` 0 they are places beside the crank or above it, or lengths. None is no place.
     """
-    given = (each for each in at if each is not None)
-    found = (_core.figure_warnings(core, "m", name, each, middle) for each in given)
+    given = (value for value in at if value is not None)
+    found = (_core.figure_warnings(core, "m", name, value, middle) for value in given)
     _report(next(filter(None, found), []))
 
 
 def masses(core: _core.Engine, **given: float) -> None:
     """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
     found = (_core.figure_warnings(core, "kg", name, mass) for name, mass in given.items())
-    _report([text for each in found for text in each])
+    _report([text for texts in found for text in texts])
 
 
 def oil(mass: float, beside: float) -> None:
@@ -226,7 +226,7 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     bool
         Whether the caller was warned.
     """
-    largest, smaller = (float(np.abs(each).max()) for each in (split_deg, of_other))
+    largest, smaller = (float(np.abs(angles).max()) for angles in (split_deg, of_other))
     if largest < LARGEST_SPLIT or smaller > largest / 2.0:
         return False
     how = f"split by {smaller:.6g}°" if smaller else "shared"
@@ -265,7 +265,7 @@ def split_pins(
             for count in range(1, len(intervals) + 1)
             if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=ROUNDING)
         )
-        fires = f"fire at {'-'.join(f'{each:.6g}' for each in intervals[:count])}°"
+        fires = f"fire at {'-'.join(f'{interval:.6g}' for interval in intervals[:count])}°"
     warn(
         f"firing_order = {labels.cut(str(given))}: even firing needs crankpins split by "
         f"{largest:.6g}°; shared ones, which shared_pins=True gives, {fires}"

@@ -380,8 +380,8 @@ class ComputedCycles:
         }
         core = of(cylinder._parts, cylinder.bore, ratio, inputs.strokes(strokes), title, checked)
         said = {"bore": cylinder.bore, "stroke": cylinder.stroke, "compression_ratio": ratio}
-        known = {name: each for name, each in (said | checked).items() if each is not None}
-        listed = ", ".join(f"{name} {each:.6g}" for name, each in known.items())
+        known = {name: value for name, value in (said | checked).items() if value is not None}
+        listed = ", ".join(f"{name} {value:.6g}" for name, value in known.items())
         return cls._of(core, f"Computed, not measured: {kind} cycle, in SI units {listed}")
 
 

@@ -319,7 +319,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         >>> abs(cycle.torque_harmonics(cylinder, [0.5, 1, 1.5])).round(1)
         array([33.6, 34.8, 36.4])
         """
-        halves = [round(2 * each) for each in inputs.explicit_half_orders(orders)]
+        halves = [round(2 * order) for order in inputs.explicit_half_orders(orders)]
         scale = area(cylinder) * cylinder.crank_radius
         below = inputs.number("crankcase", crankcase)
         checks.absolute("crankcase", below)

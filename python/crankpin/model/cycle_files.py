@@ -209,8 +209,10 @@ def load_cylinders(
     hint = "give that of angle, and one or a list for each cylinder"
     angle, *cylinders = inputs.items("columns", columns, hint) or [None]
     lists = [
-        inputs.items("columns", each, hint) if isinstance(each, (list, tuple)) else [each]
-        for each in cylinders
+        inputs.items("columns", cylinder, hint)
+        if isinstance(cylinder, (list, tuple))
+        else [cylinder]
+        for cylinder in cylinders
     ]
     if not lists or not all(lists):
         raise inputs.rejected("columns", columns, hint)
@@ -218,7 +220,7 @@ def load_cylinders(
     if len(centres) != len(lists):
         fault = f"has {len(centres)} angles for {len(lists)} cylinders"
         raise inputs.faulty("tdc_deg", fault, "give one for each column of pressure")
-    text = table_files.read(file, [angle, *(each for one in lists for each in one)], sheet)
+    text = table_files.read(file, [angle, *(place for one in lists for place in one)], sheet)
     options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
     found, first = list[Recorded](), 1
     for number, (one, centre) in enumerate(zip(lists, centres, strict=True), 1):
@@ -455,7 +457,7 @@ def _blocks(
     """Return blocks of rows on the grid of most of them, and whether any was left out."""
     angles, values = np.split(theta, resets), np.split(pressures, resets, 1)
     first = [0, *resets.tolist()]
-    whole = [k for k, each in enumerate(angles) if _span(each) >= INCOMPLETE * period]
+    whole = [k for k, theta in enumerate(angles) if _span(theta) >= INCOMPLETE * period]
     if not whole:
         at, longest = text.where(0, 0), max(map(_span, angles))
         fault = f"has angles that begin again after {longest:g}°, in blocks from {at}"
@@ -470,7 +472,7 @@ def _blocks(
         listed = _listed([str(text.lines[first[k]]) for k in between])
         warn(f"blocks of lines that begin in line {listed} are no whole cycles and left out")
     usual = float(np.median([len(angles[k]) for k in whole]))
-    grid = min((angles[k] for k in whole), key=lambda each: abs(len(each) - usual))
+    grid = min((angles[k] for k in whole), key=lambda theta: abs(len(theta) - usual))
     step = period / max(len(grid), 1)
     rows = [
         values[k]
@@ -641,7 +643,7 @@ def _pressure_unit(stated: str | None, head: str) -> tuple[str, str]:
 def _unit_of(head: str) -> str | None:
     """Return the one unit of pressure in a head."""
     units = {match[1].lower() for match in _PRESSURE.finditer(head)}
-    found = [each for each in PRESSURE_UNITS if each.lower() in units]
+    found = [unit for unit in PRESSURE_UNITS if unit.lower() in units]
     return found[0] if len(found) == 1 else None
 
 

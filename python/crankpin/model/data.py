@@ -369,7 +369,7 @@ class EngineData:
 
     def _of_banks(self, name: str, needed: str) -> InputError:
         directions = list(dict.fromkeys(self.bank_deg.tolist()))
-        listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
+        listed = ", ".join(f"{direction:.6g}°" for direction in directions[:4])
         listed += ", …" if len(directions) > 4 else ""
         count = "one bank" if len(self.banks) == 1 else f"{len(self.banks)} banks"
         return self._undefined(name, f"it has {count} ({listed}); {needed}")
@@ -388,12 +388,12 @@ class EngineData:
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
         masses: list[float] = self.rotating_mass.tolist()
-        each: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
-        if not isinstance(each, (list, tuple)) or len(each) != len(self):
+        cylinders: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
+        if not isinstance(cylinders, (list, tuple)) or len(cylinders) != len(self):
             return masses  # those of the engine, or rejected where cylinders are read
         return [
             big_end(new) if getattr(new, "rod", None) and mass == big_end(old) else mass
-            for new, old, mass in zip(each, self.cylinders, masses, strict=True)
+            for new, old, mass in zip(cylinders, self.cylinders, masses, strict=True)
         ]
 
     def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
@@ -675,15 +675,15 @@ class EngineData:
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
-        each: list[Any] = (
+        cycles: list[Any] = (
             [None if one.dummy else cycle for one in self.cylinders]
             if same
             else inputs.items("cycle", cycle, hint)
         )
-        for k, one in enumerate(each):
+        for k, one in enumerate(cycles):
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
-        cores = [None if one is None else one._core for one in each]
+        cores = [None if one is None else one._core for one in cycles]
         if all(core is None for core in cores):
             inputs.only_with("cycle", crankcase=crankcase)
         below = other._below_pistons(crankcase)
@@ -917,20 +917,20 @@ def core_of_lists(
     """Return the engine of :meth:`Engine.from_lists`; cylinders of equal ``bank`` form one."""
     banks = inputs.angles("bank_deg", bank_deg)
     if isinstance(cylinder, Cylinder):
-        each = [cylinder] * len(banks)
+        cylinders = [cylinder] * len(banks)
     else:
-        each = inputs.items(
+        cylinders = inputs.items(
             "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
         )
     core = _core.Engine.from_lists(
-        [parts(one) for one in each],
+        [parts(one) for one in cylinders],
         None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
         None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
         banks,
         bank,
         inputs.listed_numbers("z", z),
         (
-            [big_end(one) for one in each]
+            [big_end(one) for one in cylinders]
             if rotating_mass is None
             else inputs.per_item("rotating_mass", rotating_mass, len(banks))
         ),
@@ -938,7 +938,7 @@ def core_of_lists(
     )
     bearings = [] if mains is None else inputs.listed_numbers("mains", mains)
     plane = inputs.optional_number("reference_z", reference_z)
-    core = core.keeping([one._details for one in each], bearings, plane)
+    core = core.keeping([one._details for one in cylinders], bearings, plane)
     checks.units(core)
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
     checks.place(core, "reference_z", plane)
@@ -971,7 +971,7 @@ def _dummies(core: _CoreEngine) -> set[int]:
 def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
     """Return a firing order of all chambers; an empty text if the crank does not allow it."""
     silent = {str(number) for number in _silent(core)}
-    groups = ([each for each in group.split("+") if each not in silent]
+    groups = ([number for number in group.split("+") if number not in silent]
               for group in firing_order.split("-"))  # fmt: skip
     order = "-".join("+".join(group) for group in groups if group)
     try:

@@ -50,9 +50,9 @@ def furnished(
     """
     if isinstance(cylinder, Cylinder):
         return _fired(engine, firing_order)
-    each = _each(engine, cylinder)
-    masses = None if rotating_mass is not None else [big_end(one) for one in each]
-    return _fired(engine.replace(cylinder=each, rotating_mass=masses), firing_order)
+    cylinders = _each(engine, cylinder)
+    masses = None if rotating_mass is not None else [big_end(one) for one in cylinders]
+    return _fired(engine.replace(cylinder=cylinders, rotating_mass=masses), firing_order)
 
 
 def _fired(engine: Built, firing_order: str | Iterable[int]) -> Built:

@@ -310,7 +310,7 @@ class PeriodicLoad(Input):
 def with_loads(core: _core.Engine, given: Iterable[PeriodicLoad]) -> _core.Engine:
     """Return an engine with these periodic loads."""
     listed = listed_items("loads", given, PeriodicLoad)
-    return core.with_loads(f"[{', '.join(each._text() for each in listed)}]")
+    return core.with_loads(f"[{', '.join(load._text() for load in listed)}]")
 
 
 def loads(core: _core.Engine) -> tuple[PeriodicLoad, ...]:
@@ -328,12 +328,12 @@ def lines(core: _core.Engine) -> list[units.Text]:
     """Return the periodic loads in words."""
     listed = loads(core)
     found = []
-    for each in listed[:4]:
-        what = " and ".join(name for name in ("force", "torque") if getattr(each, name))
-        on = "shaft and block" if each.on == "both" else each.on
-        name = labels.one_line(each.name)
+    for load in listed[:4]:
+        what = " and ".join(name for name in ("force", "torque") if getattr(load, name))
+        on = "shaft and block" if load.on == "both" else load.on
+        name = labels.one_line(load.name)
         words = f"load {name}: {what} on {on}, z = "
-        found.append(units.Text(words, units.figure(each.z, "m", 4)))
+        found.append(units.Text(words, units.figure(load.z, "m", 4)))
     return found + [units.Text("…")] * (len(listed) > 4)
 
 
@@ -353,7 +353,7 @@ def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, An
             values = inputs.items(f"{name}[{key}]", value, "give one amplitude for each speed")
             if len(values) != rows:
                 raise inputs.rejected(f"{name}[{key}]", value, f"give {rows}, one for each speed")
-            listed[key] = tuple(_amplitude(f"{name}[{key}]", each) for each in values)
+            listed[key] = tuple(_amplitude(f"{name}[{key}]", component) for component in values)
     return read_only(dict(sorted(listed.items())))
 
 
@@ -372,7 +372,14 @@ def _amplitude(name: str, value: object) -> complex:
 
 def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:
     return [
-        [order, *(part for each in np.atleast_1d(value) for part in (each.real, each.imag))]
+        [
+            order,
+            *(
+                part
+                for component in np.atleast_1d(value)
+                for part in (component.real, component.imag)
+            ),
+        ]
         for order, value in amplitudes.items()
     ]
 

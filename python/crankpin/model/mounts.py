@@ -306,7 +306,7 @@ def _vector(name: str, values: object) -> Vector:
     listed = inputs.items(name, values, THREE)
     if len(listed) != 3:
         raise inputs.rejected(name, values, THREE)
-    x, y, z = (inputs.finite(f"{name}[{k}]", each) for k, each in enumerate(listed))
+    x, y, z = (inputs.finite(f"{name}[{k}]", coordinate) for k, coordinate in enumerate(listed))
     return (x, y, z)
 
 

@@ -105,7 +105,7 @@ class Oddities(NamedTuple):
     @property
     def cycles(self) -> tuple[int, ...]:
         """Indices of odd cycles."""
-        return tuple(sorted({each.cycle for each in self.listed if each.kind != "spike"}))
+        return tuple(sorted({oddity.cycle for oddity in self.listed if oddity.kind != "spike"}))
 
     def repaired(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return pressure without the spikes, interpolated beside the median."""
@@ -142,7 +142,7 @@ def find(
             for k in tops
         ]
         if len(groups) > MOST_SPIKES:
-            largest = max(figures, key=lambda each: abs(each.size))
+            largest = max(figures, key=lambda oddity: abs(oddity.size))
             by_cycle[cycle] = [largest._replace(kind="oscillation")]
             continue
         by_cycle[cycle] = figures
@@ -168,7 +168,7 @@ def _median(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the median of each column, some at a time: Ctrl-C is answered in between."""
     width = max(1, inputs.PIECE // max(1, len(rows)))
     pieces = [rows[:, k : k + width] for k in range(0, rows.shape[1], width)]
-    return np.concatenate([np.median(each, axis=0) for each in pieces] or [np.empty(0)])
+    return np.concatenate([np.median(piece, axis=0) for piece in pieces] or [np.empty(0)])
 
 
 def _heights(
@@ -200,7 +200,7 @@ def _heights(
 
 def _groups(places: NDArray[np.intp], count: int) -> list[list[int]]:
     """Return runs of neighbouring places; the last and the first of a cycle are neighbours."""
-    groups = [each.tolist() for each in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)]
+    groups = [group.tolist() for group in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)]
     if len(groups) > 1 and groups[0][0] == 0 and groups[-1][-1] == count - 1:
         groups[0] = groups.pop() + groups[0]
     return groups
@@ -312,7 +312,7 @@ def _shifts(
 
 def report(oddities: Oddities) -> None:
     """Warn of spikes and odd cycles, the gravest of each first."""
-    if listed := sorted(oddities.listed, key=lambda each: (each.kind == "spike", each.cycle)):
+    if listed := sorted(oddities.listed, key=lambda oddity: (oddity.kind == "spike", oddity.cycle)):
         more = f" and {len(listed) - NAMED} more" if len(listed) > NAMED else ""
         warn(
             f"{BEGINNING}{', '.join(map(str, listed[:NAMED]))}{more}; crankpin.prepare_trace "

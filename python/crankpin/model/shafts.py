@@ -156,13 +156,13 @@ class Shaft(Input):
         object.__setattr__(self, "y", inputs.finite("y", y))
         object.__setattr__(self, "name", inputs.text("name", name))
         object.__setattr__(self, "unbalances", listed_items("unbalances", unbalances, Unbalance))
-        for k, each in enumerate(self.unbalances):
-            if each.pin is not None:
+        for k, weight in enumerate(self.unbalances):
+            if weight.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
-                raise inputs.rejected(f"unbalances[{k}].pin", each.pin, hint)
-            if each.crank:
+                raise inputs.rejected(f"unbalances[{k}].pin", weight.pin, hint)
+            if weight.crank:
                 hint = "leave it out: the shaft carries it"
-                raise inputs.rejected(f"unbalances[{k}].crank", each.crank, hint)
+                raise inputs.rejected(f"unbalances[{k}].crank", weight.crank, hint)
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
@@ -189,7 +189,7 @@ def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
 def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
     listed = listed_items("shafts", given, Shaft)
-    made = core.with_shafts([_shaft(each) for each in listed])
+    made = core.with_shafts([_shaft(shaft) for shaft in listed])
     checks.hardware(made, of_shafts=True)
     return made
 
@@ -232,9 +232,9 @@ def _place(x: float, y: float) -> units.Figure:
 def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
     """Return the items of a list, each of which is of a class."""
     listed = inputs.items(name, given, f"give a list of crankpin.{kind.__name__}")
-    for k, each in enumerate(listed):
-        if not isinstance(each, kind):
-            raise inputs.rejected(f"{name}[{k}]", each, f"give a crankpin.{kind.__name__}")
+    for k, shaft in enumerate(listed):
+        if not isinstance(shaft, kind):
+            raise inputs.rejected(f"{name}[{k}]", shaft, f"give a crankpin.{kind.__name__}")
     return tuple(listed)
 
 

@@ -173,7 +173,7 @@ def of_core(figures: Any) -> Support | None:  # noqa: ANN401 - as the core gives
     if len(figures) == 2:
         (mass, cg, inertia), mounts = figures
         body = RigidBody(mass, cg, inertia, products="tensor")
-        return Subframe(body, [Mount._of(each) for each in mounts])
+        return Subframe(body, [Mount._of(mount) for mount in mounts])
     places, frequency, rows, points = figures
     count = len(places)
     values = np.array(rows).reshape(-1, count, count)

@@ -121,7 +121,7 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
                     continue
                 indented = text.lstrip(" ").startswith("\t")
                 cells = _cells(stripped, separator)
-                heads, names = (_cells(each, separator) for each in (header, above))
+                heads, names = (_cells(line, separator) for line in (header, above))
                 _check_commas(stripped, line, separator, cells, heads)
                 names = names if len(names) == len(heads) == len(cells) else []
                 listed = range(len(cells)) if columns is None else columns
@@ -206,7 +206,7 @@ def _sheet(file: Path, name: str | None) -> Iterator[list[str]]:
         except (*broken, TypeError, AttributeError, SyntaxError) as error:
             fault = f"cannot be read as a spreadsheet ({inputs.reason(error)})"
             raise inputs.faulty("path", fault, "save it as .xlsx again, or as .csv") from None
-        titles = [each.title for each in book.worksheets]
+        titles = [sheet.title for sheet in book.worksheets]
         if not titles:
             raise inputs.faulty("path", "has no sheet of cells", "save it as .csv")
         chosen = titles[0] if name is None else inputs.one_of("sheet", name, titles)
@@ -259,7 +259,7 @@ class _Rows:
                 if len(found) == len(rows) and np.isfinite(needed).all():
                     return found, lines
         read = [self._row(row, line) for row, line in zip(rows, lines, strict=True)]
-        kept = [k for k, each in enumerate(read) if each is not None]
+        kept = [k for k, row in enumerate(read) if row is not None]
         numbers = np.array([read[k] for k in kept], dtype=np.float64)
         return numbers.reshape(-1, len(self.places)), [lines[k] for k in kept]
 
@@ -294,7 +294,7 @@ class _Rows:
         cell = cells[place] if place < len(cells) else ""
         at = f"column {place} of line {line}, {inputs.shorten(' '.join(cells))}"
         if _NUMBER.fullmatch(cell):
-            if mark := next((each for each in ".," if each in cell), ""):
+            if mark := next((sign for sign in ".," if sign in cell), ""):
                 if self.mark not in ("", mark):
                     fault = f"has decimal points and commas: {inputs.shorten(cell)} in {at}"
                     raise inputs.faulty("path", fault, "write one of them in all lines")

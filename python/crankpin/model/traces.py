@@ -197,7 +197,7 @@ class Traces(Tabled, Input):
 
         """
         read = cycle_files.load_cylinders(path, columns, tdc_deg, **options)
-        return tuple(cls(*each[:5]) for each in read)
+        return tuple(cls(*fields[:5]) for fields in read)
 
     def __len__(self) -> int:
         return len(self.pressure)
@@ -245,7 +245,7 @@ class Traces(Tabled, Input):
         """
         several = not isinstance(cycles, (int, np.integer)) or isinstance(cycles, bool)
         listed = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
-        out = [item_key(each, len(self), "cycles") for each in listed]
+        out = [item_key(key, len(self), "cycles") for key in listed]
         return self._some(np.delete(np.arange(len(self)), out), "cycles", cycles)
 
     def _some(self, kept: NDArray[np.intp], argument: str, value: object) -> Self:
@@ -269,11 +269,16 @@ class Traces(Tabled, Input):
         cycles large spikes alone are found.
         """
         rows = [
-            (each.cycle, each.kind, None if math.isnan(each.at_deg) else each.at_deg, each.size)
-            for each in self._oddities.listed
+            (
+                oddity.cycle,
+                oddity.kind,
+                None if math.isnan(oddity.at_deg) else oddity.at_deg,
+                oddity.size,
+            )
+            for oddity in self._oddities.listed
         ]
         heads: list[str | tuple[str, str]] = ["cycle", "kind", ("crank angle", "°"), "size"]
-        row_units = tuple(each.unit for each in self._oddities.listed)
+        row_units = tuple(oddity.unit for oddity in self._oddities.listed)
         found = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
         unit = Column("unit", row_units or ())
         return changed(found, columns=(*found.columns, unit), row_units=row_units)
@@ -326,7 +331,7 @@ class Traces(Tabled, Input):
         so that a few steep angles do not.
         """
         # By cycle, so that Ctrl-C is answered between them.
-        differences = np.array([np.abs(np.diff(each, 4)) for each in self.pressure])
+        differences = np.array([np.abs(np.diff(trace, 4)) for trace in self.pressure])
         if not differences.size:
             return 0.0
         return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
@@ -358,7 +363,7 @@ class Traces(Tabled, Input):
 
         """
         with suppressed():  # a single cycle may be far from the others
-            return np.array([each.imep(cylinder) for each in self._raised_cycles()])
+            return np.array([cycle.imep(cylinder) for cycle in self._raised_cycles()])
 
     @documented(imep)
     def cov(self, cylinder: Cylinder) -> float:
@@ -390,8 +395,8 @@ class Traces(Tabled, Input):
         checks.absolute("crankcase", below)
         with suppressed("crankcase ="):
             found = [
-                each.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
-                for each in self._raised_cycles()
+                cycle.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
+                for cycle in self._raised_cycles()
             ]
         return np.array(found)
 
@@ -420,14 +425,21 @@ class Traces(Tabled, Input):
             ("imep", "bar", self.imep(cylinder) / 1e5),
         ]
         rows = [
-            (name, unit, float(each.mean()), _deviation(each), float(each.min()), float(each.max()))
-            for name, unit, each in figures
+            (
+                name,
+                unit,
+                float(values.mean()),
+                _deviation(values),
+                float(values.min()),
+                float(values.max()),
+            )
+            for name, unit, values in figures
         ]
-        for order, each in zip(listed, phasors.T, strict=True):
-            sizes = np.abs(each)
-            mean = float(abs(each.mean()))
+        for order, phasor in zip(listed, phasors.T, strict=True):
+            sizes = np.abs(phasor)
+            mean = float(abs(phasor.mean()))
             extremes = float(sizes.min()), float(sizes.max())
-            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(each), *extremes))
+            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(phasor), *extremes))
         of_mean = [
             100.0 * row[3] / abs(row[2]) if row[2] and row[1] != "°" else None for row in rows
         ]
@@ -470,7 +482,7 @@ class Traces(Tabled, Input):
         listed = inputs.explicit_half_orders(orders)
         between = self._raised_mean.resolution_error(cylinder, listed, crankcase=crankcase)
         phasors = self.torque_harmonics(cylinder, listed, crankcase=crankcase)
-        over_cycles = [_deviation(each) / math.sqrt(len(self)) for each in phasors.T]
+        over_cycles = [_deviation(phasor) / math.sqrt(len(self)) for phasor in phasors.T]
         return np.hypot(between, over_cycles)
 
     @property
@@ -498,7 +510,7 @@ class Traces(Tabled, Input):
             ),
             (
                 Column("crank angle", self.theta_deg, "°", digits=10),
-                *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),
+                *(Column(k, values, "Pa", digits=7) for k, values in curves.items()),
             ),
             note=self.origin,
         )

@@ -81,7 +81,7 @@ def spectrum(
     peaks = (
         result.read(name, "peak_xy")
         if name in PLANE_VECTORS
-        else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
+        else np.stack([result.read(quantity, "peak") for quantity in drawn], axis=-1)
     )
     orders, note = np.array(result.orders, dtype=np.float64), ""
     orders_given = result._request.orders is not None

@@ -84,18 +84,18 @@ def _balance_shafts(
         Passed on to the markers; ``label`` names the result in a legend.
     """
     every = result.parts()
-    shaken = {each.quantity for each in every if max(each.before, each.after) > 0.0}
+    shaken = {part.quantity for part in every if max(part.before, part.after) > 0.0}
     name = drawn_quantity(quantity, shaken.__contains__, SHAKEN)
     ax = axes_or_new(ax)
-    parts = [each for each in every if each.quantity == name]
+    parts = [part for part in every if part.quantity == name]
     before, after = (
-        np.array([getattr(each, when) for each in parts]) for when in ("before", "after")
+        np.array([getattr(part, when) for part in parts]) for when in ("before", "after")
     )
     set_title(ax, labels.name_of(result.engine), "with and without balance shafts")
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
-    rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
+    rows = rows_for(ax, [f"order {part.order} {part.part}".rstrip() for part in parts])
     ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
     # What does not change is a dot in a ring.
     for values, text, size in ((before, "without shafts", 9.0), (after, "with shafts", 4.5)):
@@ -148,15 +148,17 @@ def _balancers(
     if label is None and not alone:
         label = labels.name_of(result.engine)
     start = np.array(result[0].values)
-    parts = np.array([each.values for each in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
+    parts = (
+        np.array([option.values for option in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
+    )
     drawn = [k for k, value in enumerate(start) if value > 0.0]
     wide_enough(ax, max(100.0, float(parts[:, drawn].max(initial=0.0))))
-    rows = rows_for(ax, [_short(each.name) for each in shown])
+    rows = rows_for(ax, [_short(option.name) for option in shown])
     usual = font_of("ytick.labelsize", "medium").get_size_in_points()
     size = max(SMALLEST, min(usual, room / len(ax.get_yticks())))
     ax.tick_params(axis="y", labelsize=size)
     limits = dict(result.targets)
-    reached = np.array([each.reaches for each in shown])
+    reached = np.array([option.reaches for option in shown])
     for k in drawn:
         name = result.by[k]
         (look,) = series(ax, 1, style)
@@ -199,7 +201,7 @@ def _write_amounts(
     unit, factor = units.convert("kg·m")
     if factor == 1.0:
         unit, factor = "g·m", 1000.0
-    texts = [rounded(factor * each.unbalance) for each in shown]
+    texts = [rounded(factor * option.unbalance) for option in shown]
     amounts.set_yticks(rows, texts, fontsize=size)
     amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
     amounts.set_ylabel(f"unbalance, {unit}", color=muted(ax))

@@ -87,11 +87,11 @@ def _comparison(
 
 def _total(result: Comparison, name: str) -> str:
     """Return what becomes of all orders together."""
-    before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
+    before, after = (getattr(balance.total, name).peak for balance in (result.before, result.after))
     kind = QUANTITIES[name]
     what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
     shown = units.convert(kind.unit)
-    sizes = (rounded(each * shown.factor, 4) for each in (before, after))
+    sizes = (rounded(value * shown.factor, 4) for value in (before, after))
     values = f"{' → '.join(sizes)} {shown.unit}"
     return f"{what} {values} ({changed(before, after)})"
 
@@ -113,7 +113,7 @@ def changed(before: float, after: float) -> str:
 
 def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> None:
     """Draw a pair of bars for each order, and above it how it changes."""
-    pairs = np.array([getattr(each, name).peak for each in (result.before, result.after)])
+    pairs = np.array([getattr(balance, name).peak for balance in (result.before, result.after)])
     top = float(pairs.max(initial=0.0))
     shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
     orders = np.array(result.orders, dtype=np.float64)[shown]

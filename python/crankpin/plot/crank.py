@@ -96,16 +96,16 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     masses, weights = rotating_masses(engine, theta_deg), weights_on_crank(engine, theta_deg)
     rotating, balancing = (
         [
-            (crank, *each)
+            (crank, *group)
             for crank in shown
-            for each in by_direction(one for one in kind if one.crank == crank).items()
+            for group in by_direction(one for one in kind if one.crank == crank).items()
         ]
         for kind in (masses, weights)
     )
     radii = radius_of_amounts(engine, [amount for *_, amount in [*rotating, *balancing]])
     # Rotating masses are round and at their pins, so that they do not look like counterweights.
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
-    reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + each for each in rounds)])
+    reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + radius for radius in rounds)])
     limit = 1.25 * reach
     centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(shown)}
     sectors = [
@@ -152,7 +152,7 @@ def _numbers(ax: Axes, pins: dict[complex, list[int]], radius: float) -> dict[co
     font = FontProperties(size="small")
     labels = [
         (at / abs(at), cylinders)
-        for at, cylinders in sorted(pins.items(), key=lambda each: float(np.angle(each[0])))
+        for at, cylinders in sorted(pins.items(), key=lambda pin: float(np.angle(pin[0])))
     ]
 
     def place(towards: complex, cylinders: list[int]) -> Bbox:
@@ -286,7 +286,9 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     drawn = []
     for middle, throw in zip(middles, throw_list, strict=True):
         edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
-        drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
+        drawn.append(
+            [Stretch(*stretch) for stretch in zip(throw, edges[:-1], edges[1:], strict=True)]
+        )
     return drawn, pitch
 
 
@@ -310,10 +312,10 @@ def _weights(
     engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float, lines: dict[int, float]
 ) -> None:
     weights = weights_on_crank(engine, theta)
-    radii = radius_of_amounts(engine, [each.amount for each in weights])
+    radii = radius_of_amounts(engine, [weight.amount for weight in weights])
     plates = [
-        _plate(each, radius, lines[each.crank], thick)
-        for each, radius in zip(weights, radii, strict=True)
+        _plate(weight, radius, lines[weight.crank], thick)
+        for weight, radius in zip(weights, radii, strict=True)
     ]
     add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=WEIGHTS)
 
@@ -322,13 +324,15 @@ def _shafts(
     engine: Engine, ax: Axes, theta: float, ink: Inks, ends: tuple[float, float], thick: float
 ) -> None:
     weights = weights_on_shafts(engine, theta)
-    radii = iter(radius_of_amounts(engine, [each.amount for shaft in weights for each in shaft]))
+    radii = iter(
+        radius_of_amounts(engine, [weight.amount for shaft in weights for weight in shaft])
+    )
     half = 0.35 * JOURNAL * crank_radius(engine)
     rods, plates = [], []
     names: dict[float, list[str]] = {}
     for shaft, carried in zip(engine.shafts, weights, strict=True):
         rods.append(_rectangle(*ends, shaft.y - half, shaft.y + half))
-        plates += [_plate(each, 0.7 * next(radii), shaft.y, thick) for each in carried]
+        plates += [_plate(weight, 0.7 * next(radii), shaft.y, thick) for weight in carried]
         names.setdefault(shaft.y, []).append(shaft_text(shaft.name, shaft.ratio))
     add(ax, rods, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=2)
     add(ax, plates, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.8, zorder=4)

@@ -118,7 +118,7 @@ def bundle_of(
         handles.append(Line2D([], [], color=muted(ax), **THIN, label=f"each: {what}"))
     distinct = few and n_rest <= MOST_DASHES
     drawn = names if distinct else [""] * len(names)
-    curves = [Curve(*each) for each in zip(places, looks, drawn, strict=True)]
+    curves = [Curve(*row) for row in zip(places, looks, drawn, strict=True)]
     return Bundle(curves, handles, None if few else others[0])
 
 

@@ -115,7 +115,7 @@ def _band(result: Traces, ax: Axes, name: str, style: dict[str, object]) -> None
     degrees(ax.xaxis)
     span(ax, theta)
     numeric(ax.yaxis)
-    from_zero(ax, max(float(rows.max()), *(float(each) for each in ax.dataLim.intervaly)))
+    from_zero(ax, max(float(rows.max()), *(float(end) for end in ax.dataLim.intervaly)))
     label_y(ax, units.headed("absolute pressure", "bar"))
 
 

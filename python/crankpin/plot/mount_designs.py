@@ -53,7 +53,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     """
     ax = axes_or_new(ax)
     at = AT if result.powertrain._varies else None
-    pair = [each.modes(at).frequency for each in (result.powertrain, result.fitted)]
+    pair = [powertrain.modes(at).frequency for powertrain in (result.powertrain, result.fitted)]
     rows = np.arange(1, 7)
     looks = series(ax, 2, {"marker": "o", "linestyle": "", "markersize": 6.0} | style)
     link: dict[str, Any] = {"color": muted(ax, 0.4), "linewidth": 1.2, "zorder": 1}
@@ -73,7 +73,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     from_zero(ax, largest, name="x")
     label_x(ax, "natural frequency, Hz")
     merits = zip(result.names, result.before, result.after, result.limits, strict=True)
-    said = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, each in merits if each is None]
+    said = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
     missed = "" if result.reached else "requirements not reached"
     set_title(
         ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *said

@@ -363,7 +363,7 @@ def _waterfall(
     ax.add_collection(stems)
     low, high = float(rpm[0]), float(tips.max())
     limits = low - 0.5 * step, high + 0.1 * (high - low)
-    upright = [((each, each), limits) for each in natural if each < right]
+    upright = [((frequency, frequency), limits) for frequency in natural if frequency < right]
     colour_bar([ax], stems, units.headed("peak", drawn.unit), np.maximum(peaks, SEEN * largest))
     _dashed(ax, upright, muted(ax, 0.7))
     _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))

@@ -153,7 +153,7 @@ def _beside(
 
     Away from the origin; of a long and narrow curve, on which they would stand then, across it.
     """
-    high, wide = (abs(each).max(initial=0.0) for each in (curve.imag, curve.real))
+    high, wide = (abs(part).max(initial=0.0) for part in (curve.imag, curve.real))
     across = 1j if high <= NARROW * wide else 1.0 if wide <= NARROW * high else 0.0
     for k, (point, angles) in enumerate(labelled):
         side = (point * np.conj(across)).real

@@ -159,7 +159,7 @@ def _designs(
     number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
     best = designs.designs[:number]
-    names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]
+    names = [", ".join(filter(None, [label, _crank_text(design)])) for design in best]
     quantity = objective_words(designs.objectives[0])
     what = joined(designs._description(1), loads_of(designs))
     set_title(ax, _title(designs, len(best)), what)
@@ -198,11 +198,11 @@ def _over_bank_angle(
     """
     question = designs.question
     low, high = bank_angle_range(designs)
-    own = [float(each.bank_angle_deg or 0.0) for each in best]
+    own = [float(design.bank_angle_deg or 0.0) for design in best]
     angles = np.union1d(np.linspace(low, high, POINTS), own)
     heights = designs.over_bank_angle(angles, len(best))
     # Several designs may be dips of one curve.
-    cranks = [turned(question, each.crank, low) for each in best]
+    cranks = [turned(question, design.crank, low) for design in best]
     firsts = [cranks.index(crank) for crank in cranks]
     curves = sorted(set(firsts))
     looks = dict(zip(curves, series(ax, len(curves), style), strict=True))
@@ -210,7 +210,7 @@ def _over_bank_angle(
     least, most = question.pin_split
     for k, look in looks.items():
         splits = [turned(question, best[k].crank, angle).splits for angle in angles.tolist()]
-        allowed = np.array([all(least <= each <= most for each in at) for at in splits])
+        allowed = np.array([all(least <= split <= most for split in at) for at in splits])
         allowed |= question.hold == "pins"
         ax.plot(
             angles,
@@ -246,8 +246,8 @@ def _search(
     """
     ax = axes_or_new(ax)
     arrangements = list(result)
-    angles = np.array([each.bank_angle_deg for each in arrangements])
-    heights = np.array([max(each.second_order) for each in arrangements])
+    angles = np.array([arrangement.bank_angle_deg for arrangement in arrangements])
+    heights = np.array([max(arrangement.second_order) for arrangement in arrangements])
     without = f"{len(arrangements)} bank angles without backward moment, {result.hold} held"
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
@@ -293,12 +293,12 @@ def _listed(
 ) -> None:
     """Draw values below each other, the best first; those of the first place ringed."""
     rows = np.arange(len(best))
-    values = np.array([each.value for each in best])
+    values = np.array([design.value for design in best])
     values[~np.isfinite(values)] = np.nan
     (look,) = series(ax, 1, style)
     dots: dict[str, Any] = {"marker": "o", "markersize": 5.0} | look | {"linestyle": ""}
     ax.plot(values, rows, gid=SERIES, clip_on=False, label="_", **dots)
-    first = np.array([each.place == 1 for each in best])
+    first = np.array([design.place == 1 for design in best])
     ring(ax, values[first], rows[first], foreground(ax), "o", "_")
     for row, value in zip(rows, values, strict=True):
         if np.isfinite(value):

@@ -136,8 +136,8 @@ def _names(shown: Table) -> list[str]:
     """Return the names of the rows of a table."""
     numbers = shown._numbers()
     beside = [
-        each.cells()
-        for head, each in shown._distinct(units=False)
+        column.cells()
+        for head, column in shown._distinct(units=False)
         if head not in numbers and head != "unit"
     ]
     beside = beside or [[str(k + 1) for k in range(len(shown))]]
@@ -188,7 +188,7 @@ def _words(
     grid = make_panels(ax, figure, 1, 1, row_height=0.9)
     place = grid.axes[0, 0]
     first, *others = shown.columns
-    rows = [each.cells(MOST_BARRED) for each in others]
+    rows = [column.cells(MOST_BARRED) for column in others]
     words = dict.fromkeys(word for row in rows for word in row)
     shades = dict(zip(words, colours(place, len(words)), strict=True))
     for column, cells in enumerate(rows):
@@ -199,7 +199,7 @@ def _words(
             look: dict[str, Any] = {"ha": "center", "va": "center", "color": foreground(place)}
             place.text(column, row, plain_text(word), fontsize="small", **look)
     place.set_yticks(range(len(rows[0])), [plain_text(name) for name in first.cells(MOST_BARRED)])
-    place.set_xticks(range(len(others)), [plain_text(each.header) for each in others])
+    place.set_xticks(range(len(others)), [plain_text(column.header) for column in others])
     place.tick_params(length=0.0, labelsize="x-small")
     place.spines[:].set_visible(False)
     place.set_ylim(max(1, len(rows[0])) - 0.5, -0.5)
@@ -237,7 +237,7 @@ def drawn_as(
         return drawing(of(result), ax, **options, **fixed)  # type: ignore[no-any-return]
 
     signature = inspect.signature(drawing)
-    free = [each for each in signature.parameters.values() if each.name not in fixed]
+    free = [parameter for parameter in signature.parameters.values() if parameter.name not in fixed]
     draw.__signature__ = signature.replace(parameters=free)  # type: ignore[attr-defined]
     summary, _, rest = (inspect.getdoc(drawing) or "").partition("\n\nParameters\n")
     entries = rest.partition("\n\nReturns\n")[0].partition("\n\nExamples\n")[0]

@@ -136,7 +136,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     rows = np.arange(len(shares))
     ax.set_yticks(rows, [_short(objectives.named(str(name))) for name in names.values])
     _fit_rows(ax, len(rows))
-    interact = any(abs(each) > INTERACTION for each in interaction.values)
+    interact = any(abs(share) > INTERACTION for share in interaction.values)
     set_title(
         ax,
         labels.name_of(result.engine),

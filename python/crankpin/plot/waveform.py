@@ -255,7 +255,9 @@ def curves(
     """Draw a quantity over crank angle, a curve for each axis."""
     name = drawn_quantity(quantity, nonzero_in(result))
     drawn = series_of(result, name)
-    values = np.concatenate([by_component(result.read(each), name) for each in drawn], axis=-1)
+    values = np.concatenate(
+        [by_component(result.read(quantity), name) for quantity in drawn], axis=-1
+    )
     ax = axes_or_new(ax)
     where = joined(f"{number(result.rpm)} rpm", summed(result, name), loads_of(result, name))
     set_title(ax, labels.name_of(result.engine), where)

@@ -382,11 +382,12 @@ class ArrangementSearch(Tabled):
         """Table of the bank angles, with an arrangement for each."""
         rows = [
             (
-                *("-".join(f"{a:.6g}" for a in bank) for bank in (each.first_deg, each.second_deg)),
-                each.bank_angle_deg, each.counterweight, *each.second_order,
-                "yes" if each.near_circular else "no",
+                *("-".join(f"{a:.6g}" for a in bank)
+                  for bank in (arrangement.first_deg, arrangement.second_deg)),
+                arrangement.bank_angle_deg, arrangement.counterweight, *arrangement.second_order,
+                "yes" if arrangement.near_circular else "no",
             )
-            for each in self
+            for arrangement in self
         ]  # fmt: skip
         return Table.from_rows(
             f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too",

@@ -423,7 +423,7 @@ class BobWeight(Tabled):
         shares = inputs.vector("factors", self.factor if factors is None else factors)
         check_factor("factors", shares)
         speed = self.engine.balance(rpm, orders=[1]).rpm  # which checks it
-        named = [inputs.text("sides", each) for each in inputs.items("sides", sides, SIDES)]
+        named = [inputs.text("sides", side) for side in inputs.items("sides", sides, SIDES)]
         if len(named) != 2:
             raise inputs.rejected("sides", sides, SIDES)
         if planes is None:
@@ -442,8 +442,8 @@ class BobWeight(Tabled):
             speed,
             (named[0], named[1]),
             tuple(
-                (name, place.z, each, place.crank)
-                for (name, place), each in zip(places.items(), radii, strict=True)
+                (name, place.z, at_radius, place.crank)
+                for (name, place), at_radius in zip(places.items(), radii, strict=True)
             ),
             weights,
         )
@@ -459,7 +459,7 @@ def _positive(name: str, values: ArrayLike, count: int, hint: str) -> list[Any]:
     listed = inputs.per_item(name, values, count)
     if len(listed) != count:
         raise inputs.faulty(name, f"has {len(listed)} figures", f"give one, or {count}")
-    if not all(0.0 < each <= 1e6 for each in listed):
+    if not all(0.0 < radius <= 1e6 for radius in listed):
         raise inputs.rejected(name, values, hint)
     return listed
 

@@ -142,8 +142,8 @@ def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engi
     # To the nanogram, which leaves 0.65 + 0.18 its decimals.
     rounded = {kind: masses.round(12).tolist() for kind, masses in sums.items()}
     if RECIPROCATING in rounded:
-        each = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
-        moving = [one.replace(reciprocating_mass=mass) for one, mass in each]
+        pairs = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
+        moving = [one.replace(reciprocating_mass=mass) for one, mass in pairs]
         kept = rounded.get(ROTATING, engine.rotating_mass.tolist())
         return engine.replace(cylinder=moving, rotating_mass=kept)
     return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
@@ -156,7 +156,7 @@ def remarks_by_factor(
     words: dict[float, list[str]] = {factor: [] for factor in factors}
     for factor, text in remarks:
         # 0.5 comes out as 0.49999999999999994 at times.
-        near = next((each for each in words if abs(each - factor) < ROUNDING), factor)
+        near = next((marked for marked in words if abs(marked - factor) < ROUNDING), factor)
         words.setdefault(near, []).append(text)
     return {factor: ", ".join(filter(None, texts)) for factor, texts in words.items()}
 
@@ -185,12 +185,12 @@ class Card(Tabled):
     def table(self) -> Table:
         """Table of the weighed parts."""
         bob, engine = self.bob, self.bob.engine
-        shares = f"{', '.join(f'{100.0 * each:.6g}' for each in self.factors)} %"
+        shares = f"{', '.join(f'{100.0 * factor:.6g}' for factor in self.factors)} %"
         rows: list[tuple[str, str, str, NDArray[np.float64]]] = [
             (part, PARTS[part], shares if PARTS[part] == RECIPROCATING else "100 %", masses)
             for part, masses in bob.parts.items()
         ]
-        moving = np.array([each.reciprocating_mass for each in engine.cylinders])
+        moving = np.array([cylinder.reciprocating_mass for cylinder in engine.cylinders])
         for kind, share, masses in (
             (RECIPROCATING, shares, moving),
             (ROTATING, "100 %", engine.rotating_mass),
@@ -221,7 +221,7 @@ class Card(Tabled):
         oil = np.full(len(bob.crankpins), bob.oil)
         masses = [bob.rotating, bob.reciprocating, oil, *map(bob._mass_at, self.factors)]
         heads = ["rotating", "reciprocating", "oil"]
-        heads += [f"at {100.0 * each:.6g} %" for each in self.factors]
+        heads += [f"at {100.0 * factor:.6g} %" for factor in self.factors]
         return Table.from_rows(
             "Bob weight of each crankpin",
             ["cylinders", ("crankpin", "°"), *((head, "g") for head in heads)],
@@ -244,17 +244,17 @@ class Card(Tabled):
     def _residual(self) -> Table:
         bob, factors = self.bob, sorted(self._by_factor)
         columns = [
-            Column("factor", tuple(100.0 * each for each in factors), "%"),
-            Column("", tuple(self._by_factor[each] for each in factors)),
+            Column("factor", tuple(100.0 * factor for factor in factors), "%"),
+            Column("", tuple(self._by_factor[factor] for factor in factors)),
         ]
         omega_squared = _core.angular_speed(self.rpm) ** 2
         for name in PLANE_VECTORS:
             if not bob._first_order.exists(name):
                 continue
-            longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
+            longest, shortest = (omega_squared * axis for axis in bob.half_axes(name, factors))
             shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
             unit = QUANTITIES[name].unit
-            words = tuple(self._direction(name, each) for each in factors)
+            words = tuple(self._direction(name, factor) for factor in factors)
             columns += [
                 Column(f"{name}, longest", longest, unit, digits=4),
                 Column("shortest", abs(shortest), unit, digits=4),

@@ -305,8 +305,8 @@ class Counterweights(Tabled):
         """Places, amounts and angles of the weights."""
         heads = ("plane", ("z", "m"), ("amount", "kg·m"), ("angle", "°"))
         rows = [
-            (plane, each.z, each.amount, inputs.degrees(each.angle_deg))
-            for (plane, _), each in zip(self.by_plane, self.hardware, strict=True)
+            (plane, weight.z, weight.amount, inputs.degrees(weight.angle_deg))
+            for (plane, _), weight in zip(self.by_plane, self.hardware, strict=True)
         ]
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"

@@ -160,8 +160,8 @@ def fitted(
         fit.keep,
     )
     unbalances = []
-    for place, angle, each in found:
-        weight = unbalance_of(each)
+    for place, angle, unbalance in found:
+        weight = unbalance_of(unbalance)
         if angles is not None:
             weight = weight.replace(angle_deg=angles[names[place]][angle])
         unbalances.append((names[place], weight))

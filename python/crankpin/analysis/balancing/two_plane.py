@@ -161,5 +161,5 @@ class TwoPlaneCorrection(Tabled):
         return Table.from_rows(
             "Two-plane correction",
             ["plane", ("z", "m"), ("unbalance", "g·mm"), ("add at", "°"), ("or drill at", "°")],
-            [(k + 1, *(float(each[k]) for each in figures)) for k in (0, 1)],
+            [(k + 1, *(float(figure[k]) for figure in figures)) for k in (0, 1)],
         )

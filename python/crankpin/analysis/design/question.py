@@ -191,7 +191,7 @@ def _intervals(
         return (simple(Fraction(cycle, number)),) * number if even else None
     if even:
         raise inputs.rejected("intervals_deg", intervals_deg, "leave it out, or even_firing")
-    listed = [exact(each) for each in inputs.angles("intervals_deg", intervals_deg)]
+    listed = [exact(angle) for angle in inputs.angles("intervals_deg", intervals_deg)]
     if len(listed) != number or sum(listed) != cycle or min(listed) < 0:
         hint = f"give {number} intervals, none negative, that add up to {cycle}"
         raise inputs.rejected("intervals_deg", intervals_deg, hint)
@@ -262,7 +262,7 @@ def _throws(count: int, throws: object) -> tuple[tuple[Exact, ...], ...]:
     hint = f'give {count} angles to be put in order, or "free"'
     if isinstance(throws, str):
         raise inputs.rejected("throws_deg", throws, hint)
-    listed = [exact(each) % TURN for each in inputs.angles("throws_deg", throws)]
+    listed = [exact(angle) % TURN for angle in inputs.angles("throws_deg", throws)]
     if len(listed) != count:
         raise inputs.rejected("throws_deg", throws, hint)
     return (tuple(listed),)
@@ -274,7 +274,7 @@ def _shafts(shaft_ratios: Iterable[float | str | Fraction]) -> tuple[Order, ...]
         "for 1 give counterweights=True"
     )
     listed = inputs.items("shafts", shaft_ratios, hint)
-    ratios = [inputs.speed_ratio("shafts", each) for each in listed]
+    ratios = [inputs.speed_ratio("shafts", ratio) for ratio in listed]
     if max(map(abs, ratios), default=0) > _core.HIGHEST_ORDER:
         raise inputs.rejected("shafts", listed, f"give ratios up to {_core.HIGHEST_ORDER}")
     if 1 in ratios or len(set(ratios)) < len(ratios):

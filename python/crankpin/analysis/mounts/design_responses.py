@@ -214,7 +214,7 @@ class DesignResponses(Labelled):
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
         columns = [Column("design", np.arange(len(self)))]
         for k, values in enumerate(self.read("frequency").T.tolist()):
-            known = (None if math.isnan(each) else each for each in values)
+            known = (None if math.isnan(value) else value for value in values)
             columns.append(Column(f"f{k + 1}", tuple(known), "Hz"))
         for axis, values in zip("xyz", self.read("body_force_rms").T, strict=True):
             columns.append(Column(f"F_{axis} rms", values, "N"))
@@ -248,7 +248,7 @@ def designs(
         values[name] = {
             figure: _values(by_name[name], figure, given) for figure, given in figures.items()
         }
-    counts = {len(each) for figures in values.values() for each in figures.values()}
+    counts = {len(value) for figures in values.values() for value in figures.values()}
     if len(counts) > 1:
         listed = ", ".join(map(str, sorted(counts)))
         raise inputs.faulty(

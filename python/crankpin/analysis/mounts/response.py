@@ -836,8 +836,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     def _of_loads(self) -> Table:
         places, note = self._shown()
         columns = [Column("order", tuple(self.orders[k] for k in places))]
-        each = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
-        pairs = zip(*(np.asarray(values)[places].T for values in each), strict=True)
+        readings = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
+        pairs = zip(*(np.asarray(values)[places].T for values in readings), strict=True)
         for name, (load, support, ratio, decibels) in zip(COMPONENTS_OF_LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
@@ -847,7 +847,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
             for values, in_unit in ((ratio, ""), (decibels, "dB")):
                 if np.isnan(values).all():
                     continue
-                listed = (None if np.isnan(each) else each for each in values.tolist())
+                listed = (None if np.isnan(value) else value for value in values.tolist())
                 columns.append(Column(f"T {name}", tuple(listed), in_unit))
         point = self._point and units.Figure(self._point, "m", "", "({}, {}, {})")
         at = units.Text(point or "the CG")

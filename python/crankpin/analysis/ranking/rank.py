@@ -166,7 +166,9 @@ def rank(
     bare = tuple(objective.bare() for objective in ranked_by)
     if any(ratio < 0 for engine in swept.engines for _, _, ratio in engine._core.cranks[0]):
         # There counterweights on other cranks reach it.
-        bare = tuple(each._replace(words=each.words.removesuffix(LEFT)) for each in bare)
+        bare = tuple(
+            objective._replace(words=objective.words.removesuffix(LEFT)) for objective in bare
+        )
     return Ranking(swept, bare, tuple(values), choices)
 
 

@@ -147,10 +147,10 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)
-        heads = [(each.head, each.unit) for each in self.objectives]
+        heads = [(objective.head, objective.unit) for objective in self.objectives]
         rows = [
-            (each.place, each.name, _several(each.bank_angles_deg), *each.values)
-            for each in self.choices
+            (choice.place, choice.name, _several(choice.bank_angles_deg), *choice.values)
+            for choice in self.choices
         ]
         return Table.from_rows(
             title, ["place", "engine", ("bank angle", "°"), *heads], rows, loads=self.loads_counted
@@ -183,11 +183,11 @@ def chosen(
     refine: bool,
 ) -> tuple[Choice, ...]:
     """Return each engine at its best angles, the best engine first."""
-    tolerances = np.array([rtol * _largest(each) for each in values])
+    tolerances = np.array([rtol * _largest(row) for row in values])
     names, grid = list(swept.coords["engine"]), angles_of(swept)
     choices: list[Choice] = []
     for k, engine in enumerate(swept.engines):
-        rows = np.stack([each[k] for each in values], axis=1)
+        rows = np.stack([row[k] for row in values], axis=1)
         angles = grid
         if refine and grid is not None:
 
@@ -210,7 +210,7 @@ def chosen(
             if where and swept.hold is not None:
                 engine = engine.with_bank_angle(where[0], hold=swept.hold)  # noqa: PLW2901
         choices.append(Choice(0, str(names[k]), engine, where, best))
-    rows = np.array([each.values for each in choices])
+    rows = np.array([choice.values for choice in choices])
     ranked: list[Choice] = []
     for group in groups(rows, np.arange(len(choices)), tolerances):
         place = len(ranked) + 1

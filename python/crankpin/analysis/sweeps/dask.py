@@ -36,9 +36,8 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     common = changed(whole, axes=first, _request=whole._of_parts)
     variables: dict[str, Any] = {}
     listed = [whole._quantity(name) for name in quantities]
-    for quantity, what in [
-        (each, what) for each in listed for what in whole._in_datasets(each.name)
-    ]:
+    pairs = [(kind, what) for kind in listed for what in whole._in_datasets(kind.name)]
+    for quantity, what in pairs:
         dims = quantity._dims_of(what)
         kind = np.complex128 if what in export.COMPLEX else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]

@@ -287,7 +287,7 @@ class Sweep(ByOrder[Any]):
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
         swept = {name: self.axes.get(name) for name in AXES}
-        coords |= {name: each for name, each in swept.items() if isinstance(each, np.ndarray)}
+        coords |= {name: values for name, values in swept.items() if isinstance(values, np.ndarray)}
         return read_only(coords)
 
     @cached_property
