@@ -328,10 +328,12 @@ def in_units(dataset: xr.Dataset, setting: unit_names.Setting) -> xr.Dataset:
     """Return a Dataset in the units of a setting, coordinates included."""
     for name, array in dataset.variables.items():
         unit = array.attrs.get("units", "")
-        shown = unit_names.convert(unit, setting)
-        if shown.unit != unit:
-            attributes = {**array.attrs, "units": shown.unit}
-            dataset = dataset.assign({name: (array.dims, array.values * shown.factor, attributes)})
+        converted = unit_names.convert(unit, setting)
+        if converted.unit != unit:
+            attributes = {**array.attrs, "units": converted.unit}
+            dataset = dataset.assign(
+                {name: (array.dims, array.values * converted.factor, attributes)}
+            )
     return dataset
 
 

@@ -273,14 +273,14 @@ def listed_numbers(name: str, values: ArrayLike) -> list[float]:
     array = vector(name, values)
     if array.size > MOST_ITEMS:
         raise faulty(name, f"has {array.size} numbers", f"give {MOST_ITEMS} at most")
-    listed: list[float] = array.tolist()
-    return listed
+    numbers: list[float] = array.tolist()
+    return numbers
 
 
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     """Return one float for each item; a scalar is that of all."""
-    listed = listed_numbers(name, values)
-    return listed if np.ndim(values) else listed * count
+    numbers = listed_numbers(name, values)
+    return numbers if np.ndim(values) else numbers * count
 
 
 def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
@@ -394,10 +394,10 @@ def one_of(
 
 def nearest(value: object, words: Iterable[str]) -> str:
     """Return ``; did you mean "moment"?`` for a slip in one of many words, else nothing."""
-    listed = list(words)
-    if not isinstance(value, str) or len(listed) < MANY_WORDS:
+    choices = list(words)
+    if not isinstance(value, str) or len(choices) < MANY_WORDS:
         return ""
-    matches = difflib.get_close_matches(value[:80], listed, 1)
+    matches = difflib.get_close_matches(value[:80], choices, 1)
     return f"; did you mean {_quoted(matches[0])}?" if matches else ""
 
 
@@ -416,12 +416,12 @@ def items(name: str, values: object, hint: str) -> list[Any]:
         raise rejected(name, values, hint)
     try:
         is_endless = type(values) not in (list, tuple)
-        listed = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
+        taken = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
     except (TypeError, ValueError) as error:
         raise rejected(name, values, f"{hint} ({reason(error)})") from None
-    if len(listed) > MOST_ITEMS:
+    if len(taken) > MOST_ITEMS:
         raise faulty(name, f"has more than {MOST_ITEMS} entries", hint)
-    return listed
+    return taken
 
 
 def angle(name: str, value: object) -> str:
@@ -437,16 +437,16 @@ def angle(name: str, value: object) -> str:
         return angle(name, value[()])
     elif isinstance(value, (Decimal, np.longdouble)):
         value = str(value)
-    known = text(name, value, "give degrees") if isinstance(value, str) else number(name, value)
-    return _core.exact_angle(name, known)
+    checked = text(name, value, "give degrees") if isinstance(value, str) else number(name, value)
+    return _core.exact_angle(name, checked)
 
 
 def angles(name: str, values: object) -> list[str]:
     """Return a list of angles."""
     if isinstance(values, (memoryview, array_module.array)) or hasattr(values, "__array__"):
         values = np.asarray(values)  # whose items keep their precision
-    listed = items(name, values, "give a list of degrees")
-    return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
+    degrees = items(name, values, "give a list of degrees")
+    return [angle(f"{name}[{k}]", value) for k, value in enumerate(degrees)]
 
 
 def degrees(angle: Angle) -> float:
@@ -473,14 +473,14 @@ def firing_order(
     """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if not isinstance(values, str):
-        listed = items(name, values, hint)
-        if any(isinstance(value, (float, np.floating)) for value in listed):
+        entries = items(name, values, hint)
+        if any(isinstance(value, (float, np.floating)) for value in entries):
             numbers = [
-                float(value) if isinstance(value, np.floating) else value for value in listed
+                float(value) if isinstance(value, np.floating) else value for value in entries
             ]
             hint = f"{hint}; firing intervals are intervals_deg of Engine.from_firing_order"
             raise rejected(name, numbers, hint)
-        return "-".join(shorten(number) for number in listed)
+        return "-".join(shorten(number) for number in entries)
     typed = text(name, values, hint)
     plain = typed.strip()
     if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
@@ -511,10 +511,12 @@ def _by_banks(name: str, typed: str, banks: Sequence[int], dummies: Collection[i
         place = int(match["number"] or match["turned"])
         members = [k for k, bank in enumerate(banks, start=1) if bank == of_letter.get(letter)]
         if not 1 <= place <= len(members):
-            known = ", ".join(
+            banks_text = ", ".join(
                 f"{letter} ({banks.count(bank)})" for letter, bank in of_letter.items()
             )
-            raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
+            raise rejected(
+                name, typed, f"there is no {match[0]}; banks and cylinders are {banks_text}"
+            )
         return str(members[place - 1])
 
     by_numbers = _LETTERS.sub(number, typed)
@@ -557,12 +559,12 @@ def _orders(
         raise rejected(name, values, f'{hint}, or "auto"')
     if isinstance(values, np.ndarray) and values.size <= MOST_ITEMS:
         values = values.tolist()  # Python's numbers, read in half the time of NumPy's
-    listed = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
+    entries = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
     try:
-        result = [one(value) for value in listed]
+        result = [one(value) for value in entries]
     except (TypeError, ValueError, OverflowError):
         # Of NumPy's infinite numbers a remainder would warn.
-        fractions = any(isinstance(value, float) and float(value) % 1.0 > 0.0 for value in listed)
+        fractions = any(isinstance(value, float) and float(value) % 1.0 > 0.0 for value in entries)
         if fractions and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
         raise rejected(name, values, hint) from None
@@ -582,10 +584,10 @@ def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
     return _given(half_orders(values, name), name, "numbers")
 
 
-def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:
-    if listed is None:
+def _given(orders: list[Number] | None, name: str, what: str) -> list[Number]:
+    if orders is None:
         raise rejected(name, "auto", f"give {what} here, such as [1, 2]")
-    return listed
+    return orders
 
 
 def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
@@ -605,12 +607,12 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
     hint = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
     if not isinstance(values, Mapping):
         raise rejected("spectrum", values, hint)
-    listed = explicit_orders(values, "spectrum")
+    orders = explicit_orders(values, "spectrum")
     try:
         for amplitude in values.values():
             if type(amplitude) in _BOOLEANS or isinstance(amplitude, str):
                 raise TypeError("text or a truth value is not a number")
-        return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
+        return [(n, complex(values[key])) for n, key in zip(orders, values, strict=True)]
     except (TypeError, ValueError, OverflowError) as error:
         raise rejected("spectrum", values, f"{hint} ({reason(error)})") from None
 

@@ -88,8 +88,8 @@ def parts_of(name: str, names: Sequence[str]) -> tuple[str, ...]:
         names = [name for name in names if name != "gas"]
         if not set(names) - {"inertia"}:
             return ()
-    known = [part for part in PART_WORDS if part in names]
-    return (*(f"{name}.{part}" for part in (*known, *(n for n in names if n not in PART_WORDS))),)
+    usual = [part for part in PART_WORDS if part in names]
+    return (*(f"{name}.{part}" for part in (*usual, *(n for n in names if n not in PART_WORDS))),)
 
 
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)

@@ -159,8 +159,8 @@ class Record:
         return self
 
     def __repr__(self) -> str:
-        shown = ((field.name, getattr(self, field.name)) for field in self._fields if field.repr)
-        values = ", ".join(f"{name}={value!r}" for name, value in shown)
+        pairs = ((field.name, getattr(self, field.name)) for field in self._fields if field.repr)
+        values = ", ".join(f"{name}={value!r}" for name, value in pairs)
         return f"{type(self).__name__}({values})"
 
 
@@ -202,10 +202,10 @@ class Listed(Generic[Item]):
     """Function that makes such records of one item or more; empty if anyone may, of any."""
 
     def __post_init__(self) -> None:
-        listed = self._listed()
-        sound = isinstance(listed, tuple) and all(isinstance(item, self._item) for item in listed)
-        if self._maker and not (sound and listed):
-            raise inputs.rejected(self._items, listed, f"use {self._maker}")
+        entries = self._listed()
+        sound = isinstance(entries, tuple) and all(isinstance(item, self._item) for item in entries)
+        if self._maker and not (sound and entries):
+            raise inputs.rejected(self._items, entries, f"use {self._maker}")
         super().__post_init__()  # type: ignore[misc] # of the record that this is mixed into
 
     def _listed(self) -> tuple[Item, ...]:
@@ -221,9 +221,9 @@ class Listed(Generic[Item]):
     def __getitem__(self, place: slice) -> tuple[Item, ...]: ...
 
     def __getitem__(self, place: int | slice) -> Item | tuple[Item, ...]:
-        listed = self._listed()
-        key: Any = item_key(place, len(listed))
-        return listed[key]  # type: ignore[no-any-return]
+        entries = self._listed()
+        key: Any = item_key(place, len(entries))
+        return entries[key]  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._listed())

@@ -78,9 +78,9 @@ class Column(Record):
 
     def cells(self, rows: int | None = None) -> list[str]:
         """Return the first values, or all, as text, numbers rounded and exact zeros as 0."""
-        listed = self._listed(slice(rows))
+        values = self._listed(slice(rows))
         return [
-            _cell(value) if isinstance(value, str) else self._rounded(value) for value in listed
+            _cell(value) if isinstance(value, str) else self._rounded(value) for value in values
         ]
 
     def _rounded(self, value: float | None) -> str:
@@ -98,19 +98,23 @@ class Column(Record):
 
     def _in(self, setting: units.Setting) -> Column:
         """Return the column in the units of a setting."""
-        shown = units.convert(self.unit, setting)
+        converted = units.convert(self.unit, setting)
         if not isinstance(self.data, np.ndarray) and units.Text in {*map(type, self.data)}:
             texts = ((isinstance(cell, str), cell) for cell in self.data)
             cells = (units.shown(cell, setting) if is_text else cell for is_text, cell in texts)
             return changed(self, data=tuple(cells))
-        if shown.unit == self.unit:
+        if converted.unit == self.unit:
             return self
-        values = _times(self.data, shown.factor)
+        values = _times(self.data, converted.factor)
         decimals = self.decimals
         if decimals is not None:
-            decimals = max(0, decimals - round(math.log10(shown.factor)))
+            decimals = max(0, decimals - round(math.log10(converted.factor)))
         return changed(
-            self, data=values, unit=shown.unit, decimals=decimals, least=self.least * shown.factor
+            self,
+            data=values,
+            unit=converted.unit,
+            decimals=decimals,
+            least=self.least * converted.factor,
         )
 
     def _array(self) -> NDArray[Any]:
@@ -181,11 +185,11 @@ class Table(Tabled):
         Table
             The table.
         """
-        listed = [[label] if isinstance(label, str) else list(label) for label in labels]
+        rows_of_labels = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
         numbers = [] if rows is None else list(rows.T)
         before, digits = len(heads) - len(numbers), 5 if rows is None else 10
-        texts = zip(*listed, strict=True) if listed else [()] * before
+        texts = zip(*rows_of_labels, strict=True) if rows_of_labels else [()] * before
         columns = [
             Column(name, tuple(values), unit, digits)
             for (name, unit), values in zip(heads, texts, strict=False)
@@ -229,23 +233,23 @@ class Table(Tabled):
             return self
         columns = tuple(column._in(setting) for column in self.columns)
         distinct = {unit: units.convert(unit, setting) for unit in {*self.row_units}}
-        shown = [distinct[unit] for unit in self.row_units]
-        if shown:
-            columns = tuple(self._by_row(column, shown) for column in columns)
+        converted = [distinct[unit] for unit in self.row_units]
+        if converted:
+            columns = tuple(self._by_row(column, converted) for column in columns)
         return changed(
             self, title=units.shown(self.title, setting), columns=columns,
-            note=units.shown(self.note, setting), row_units=tuple(unit.unit for unit in shown),
+            note=units.shown(self.note, setting), row_units=tuple(unit.unit for unit in converted),
         )  # fmt: skip
 
-    def _by_row(self, column: Column, shown: Sequence[units.Converted]) -> Column:
+    def _by_row(self, column: Column, converted: Sequence[units.Converted]) -> Column:
         """Return a column without unit, its numbers and units those of each row."""
         if column.unit or column.name in COUNTED:
             return column
         if isinstance(column.data, np.ndarray) and not column.is_text:
-            factors = np.fromiter((new.factor for new in shown), float, len(shown))
+            factors = np.fromiter((new.factor for new in converted), float, len(converted))
             return changed(column, data=_times(column.data, factors))
         values = []
-        for value, unit, new in zip(column.data, self.row_units, shown, strict=True):
+        for value, unit, new in zip(column.data, self.row_units, converted, strict=True):
             cell = value
             if not isinstance(value, str):
                 cell = _times(value, new.factor)
@@ -398,8 +402,8 @@ class Table(Tabled):
         units_of = [column.unit for column in chosen.values() for _ in range(count)]
         if self.row_units:
             units_of = [
-                unit or own
-                for unit, own in zip(units_of, self.row_units * len(chosen), strict=True)
+                unit or of_row
+                for unit, of_row in zip(units_of, self.row_units * len(chosen), strict=True)
             ]
         values = tuple(value for column in chosen.values() for value in column._listed())
         quantities = tuple(name for name in chosen for _ in range(count))

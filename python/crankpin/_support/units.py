@@ -136,7 +136,7 @@ _settings: ContextVar[tuple[tuple[Shown, bool], ...]] = ContextVar("settings", d
 
 def read(text: object, name: str = "units") -> Setting:
     """Return the units that a text names."""
-    found: Setting = {}
+    setting: Setting = {}
     for word in filter(None, (part.strip() for part in inputs.text(name, text, HINT).split(","))):
         unit = symbol(word) or word.replace("*", "·")
         try:
@@ -144,10 +144,10 @@ def read(text: object, name: str = "units") -> Setting:
         except KeyError:
             meant = inputs.nearest(word, [*SYMBOLS, *ALIASES])
             raise inputs.rejected(name, text, f"{HINT}{meant}") from None
-        if dimension in found:
-            raise inputs.rejected(name, text, f"{found[dimension]} and {unit} are of one kind")
-        found[dimension] = _text(_terms(unit))
-    return found
+        if dimension in setting:
+            raise inputs.rejected(name, text, f"{setting[dimension]} and {unit} are of one kind")
+        setting[dimension] = _text(_terms(unit))
+    return setting
 
 
 def current() -> Setting:
@@ -218,19 +218,19 @@ class Figure(NamedTuple):
 
     def text(self, setting: Mapping[Dimension, str]) -> str:
         """Return the numbers and the unit that a setting shows."""
-        shown, spec = convert(self.unit, setting), self.spec
+        converted, spec = convert(self.unit, setting), self.spec
         numbers = [format(value, spec) for value in self.values]
-        if shown.factor != 1.0:
+        if converted.factor != 1.0:
             before, _, digits = spec.partition(".")
             most = int(digits[:-1] or 5)
             if digits.endswith("f"):
-                spec = f"{before}.{max(0, most - round(math.log10(shown.factor)))}f"
-                numbers = [format(value * shown.factor, spec) for value in self.values]
+                spec = f"{before}.{max(0, most - round(math.log10(converted.factor)))}f"
+                numbers = [format(value * converted.factor, spec) for value in self.values]
             else:
                 most = max(most, LEAST_DIGITS)
-                rounded = (float(f"{value * shown.factor:.{most}g}") for value in self.values)
+                rounded = (float(f"{value * converted.factor:.{most}g}") for value in self.values)
                 numbers = [f"{value:{before}.10g}" for value in rounded]
-        return f"{self.form.format(*numbers) if numbers else ''} {shown.unit}".strip()
+        return f"{self.form.format(*numbers) if numbers else ''} {converted.unit}".strip()
 
 
 class Text(str):
@@ -300,21 +300,21 @@ Terms = list[tuple[str, int]]
 
 def _terms(unit: str) -> Terms:
     """Return the symbols of a unit with their exponents; a KeyError for one that is unknown."""
-    if (found := _core.unit_terms(unit)) is None:
+    if (terms := _core.unit_terms(unit)) is None:
         raise KeyError(unit)
-    return found
+    return terms
 
 
 def _dimension(terms: Terms) -> Dimension:
     """Return the exponents of mass, length, force, pressure; of others the name is one."""
-    found = [0] * len(KINDS)
+    exponents = [0] * len(KINDS)
     others: list[int] = []
     for name, n in terms:
         if name in SYMBOLS:
-            found[SYMBOLS[name][0]] += n
+            exponents[SYMBOLS[name][0]] += n
         else:
             others += [10 if name == "s" else 20, n]
-    return (*found, *others)
+    return (*exponents, *others)
 
 
 def _factor(terms: Terms) -> Fraction:

@@ -284,13 +284,13 @@ class BearingLoads(InsideLoads, Labelled):
         name = inputs.one_of("load", load, _VECTORS)
         peaks = self._quantity(name).peak
         area = np.ones(len(peaks))
-        for argument, given in (("width", width), ("diameter", diameter)):
-            sizes = np.array(inputs.per_item(argument, given, len(peaks)))
+        for argument, sizes_of in (("width", width), ("diameter", diameter)):
+            sizes = np.array(inputs.per_item(argument, sizes_of, len(peaks)))
             hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
             if len(sizes) != len(peaks):
-                raise inputs.rejected(argument, given, hint)
+                raise inputs.rejected(argument, sizes_of, hint)
             if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
-                raise inputs.rejected(argument, given, hint)
+                raise inputs.rejected(argument, sizes_of, hint)
             inputs.positive_array(argument, sizes, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
                 warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
@@ -490,10 +490,10 @@ class BearingLoads(InsideLoads, Labelled):
         if index >= count:
             raise inputs.rejected("crank", crank, f"give the index of a crank, 0 to {count - 1}")
         cut = (inputs.one_of("part", part, PARTS), index)
-        kept = self.__dict__.setdefault("_cut", {})
-        if cut not in kept:
-            kept[cut] = self._core.sections(*cut, self.theta_deg)
-        return kept[cut]  # type: ignore[no-any-return]
+        cache = self.__dict__.setdefault("_cut", {})
+        if cut not in cache:
+            cache[cut] = self._core.sections(*cut, self.theta_deg)
+        return cache[cut]  # type: ignore[no-any-return]
 
     # --- tables and pictures ---------------------------------------------------------------------
 

@@ -210,14 +210,14 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         if self._request.orders is not None:
             return places, ()
         swept = tuple(range(len(self.dims)))
-        kept = np.zeros(len(places), dtype=bool)
+        is_kept = np.zeros(len(places), dtype=bool)
         for name in names:
             peaks = self.read(name, "peak").max(axis=swept, initial=0.0)
-            kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
-        if not kept.any():
+            is_kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
+        if not is_kept.any():
             return places, ()
-        shown = tuple(place for place in places if kept[place])
-        return shown, tuple(self.orders[place] for place in places if not kept[place])
+        visible = tuple(place for place in places if is_kept[place])
+        return visible, tuple(self.orders[place] for place in places if not is_kept[place])
 
     def _least_shown(self, peaks: NDArray[np.float64]) -> float:
         """Return the least peak that tables write as a number, of a quantity with these."""
@@ -234,8 +234,8 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         if quantity.order is not None:
             keys = (quantity.order,)
         else:
-            shown, left_out = self._shown_orders(quantity.name)
-            keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
+            visible, left_out = self._shown_orders(quantity.name)
+            keys, note = (*(self.orders[k] for k in visible), ALL), labels.not_shown(left_out)
         unit, words = quantity.unit, quantity.words
         title: str = units.headed(words, unit)
         coords = {name: values for name, values in quantity.coords.items() if name in self.dims}
@@ -359,10 +359,11 @@ class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Gen
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""
-        shown = list(self._each())
-        columns = export.points(self.result.coords, len(shown))
+        quantities = list(self._each())
+        columns = export.points(self.result.coords, len(quantities))
         columns += [
-            Column(quantity.kind.vector_symbol, quantity.peak, quantity.unit) for quantity in shown
+            Column(quantity.kind.vector_symbol, quantity.peak, quantity.unit)
+            for quantity in quantities
         ]
         title = f"Peaks of {self._which}"
         return Table(title, tuple(columns), loads=self.loads_counted)

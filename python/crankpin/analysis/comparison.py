@@ -196,10 +196,10 @@ class Comparison(Tabled):
         """
         before, after = self._peaks(quantity)
         peaks = np.maximum(before, after)
-        kept: list[int] = np.flatnonzero(
+        places: list[int] = np.flatnonzero(
             peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
         ).tolist()
-        return kept
+        return places
 
     def _peaks(self, quantity: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         name = inputs.one_of("quantity", quantity, QUANTITIES)
@@ -216,24 +216,24 @@ class Comparison(Tabled):
             kind = QUANTITIES[name]
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
-            shown = self._shown_orders(name)
+            places = self._shown_orders(name)
             head = units.headed(kind.words, kind.unit)
-            texts += [(head, self.orders[k]) for k in shown]
-            rows += [(before[k], after[k], change[k]) for k in shown]
-            row_units += [kind.unit] * (len(shown) + (len(shown) > 1))
-            if len(shown) > 1:
+            texts += [(head, self.orders[k]) for k in places]
+            rows += [(before[k], after[k], change[k]) for k in places]
+            row_units += [kind.unit] * (len(places) + (len(places) > 1))
+            if len(places) > 1:
                 total = [getattr(balance.total, name).peak for balance in (self.before, self.after)]
                 texts.append((head, ALL))
                 rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
-        listed = np.array(rows).reshape(-1, 3)
-        listed[~np.isfinite(listed)] = np.nan  # relative to nothing
+        numbers = np.array(rows).reshape(-1, 3)
+        numbers[~np.isfinite(numbers)] = np.nan  # relative to nothing
         return Table.from_rows(
             title,
             [*header[:-1], ("change", "%")],
             texts,
-            listed,
+            numbers,
             loads=self.loads_counted,
             row_units=row_units,
         )

@@ -131,8 +131,8 @@ class Exercise(Tabled):
     @property
     def table(self) -> Table:
         """Answers that the sheet asks for, with their units, and the question."""
-        asked = [(step.answer, step.unit) for step in self._answered]
-        return Table.from_rows(self._head, ["answer", "unit"], asked, note=self.question)
+        rows = [(step.answer, step.unit) for step in self._answered]
+        return Table.from_rows(self._head, ["answer", "unit"], rows, note=self.question)
 
     @property
     def frames(self) -> Frames:
@@ -297,13 +297,13 @@ def _inline(random: Random) -> Sheet:
         ),
         Step("force of that order", "aₙ F |Σ e^(i n φ)|", force, "N", "force"),
     )
-    listed = "-".join(f"{angle:g}" for angle in engine.throws_deg)
+    angles = "-".join(f"{angle:g}" for angle in engine.throws_deg)
     evens = ", ".join(
         f"a{n} = {value:.4g}"
         for n, value in zip("₂₄₆", figures.cylinder.harmonics([2, 4, 6]).real, strict=True)
     )
     question = (
-        f"An inline-{len(engine)} has the throws {listed}. {figures} The piston's harmonics are "
+        f"An inline-{len(engine)} has the throws {angles}. {figures} The piston's harmonics are "
         f"a₁ = 1, {evens}, and no others of odd order. Which is the lowest order with a shaking "
         "force, and how large is it?"
     )

@@ -128,18 +128,18 @@ class Explanation(Tabled):
             HTML.
         """
         if count is None:
-            said = self._said(self._explained)
+            sentences = self._said(self._explained)
         else:
             first = min(inputs.whole("count", count, 0), sys.maxsize)
             explained = _core.explain(engine_core(self.engine), self.rpm, vectors=True)
-            said = self._said(explained, first)
-        items = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in said)
+            sentences = self._said(explained, first)
+        items = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in sentences)
         return f"<ul>{items}</ul>"
 
     def _said(self, explained: _core.Explanation, count: int | None = None) -> list[str]:
         """Return the sentences in the units that are set."""
-        shown = [(unit, *units.convert(unit)) for unit in UNITS]
-        changed = [(unit, to, factor) for unit, to, factor in shown if to != unit]
+        converted = [(unit, *units.convert(unit)) for unit in UNITS]
+        changed = [(unit, to, factor) for unit, to, factor in converted if to != unit]
         return explained.sentences(self.engine.loads_counted, changed, count)
 
     @cached_property

@@ -64,17 +64,19 @@ def place_of(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - te
     """Return the place of a value among those of a coordinate."""
     if isinstance(values, tuple) and values and isinstance(values[0], str):
         return values.index(inputs.one_of(name, value, values))
-    number, known = inputs.number(name, value), np.asarray(values)
-    places = np.flatnonzero(known == number)
+    number, values_of = inputs.number(name, value), np.asarray(values)
+    places = np.flatnonzero(values_of == number)
     if not places.size:
         nearest = ""
-        if known.size:
+        if values_of.size:
             nearest = (
-                f", {known.min():.10g} to {known.max():.10g}; "
-                f"the nearest is {known[np.abs(known - number).argmin()]:.10g}"
+                f", {values_of.min():.10g} to {values_of.max():.10g}; "
+                f"the nearest is {values_of[np.abs(values_of - number).argmin()]:.10g}"
             )
         swept = "swept " if name in labels.SWEPT else ""
-        raise inputs.rejected(name, value, f"is not among the {len(known)} {swept}values{nearest}")
+        raise inputs.rejected(
+            name, value, f"is not among the {len(values_of)} {swept}values{nearest}"
+        )
     return int(places[0])
 
 
@@ -95,18 +97,18 @@ def dataset(
     lazy
         Name of a variable → its values where they are not those of the result, as of dask.
     """
-    listed = [
+    pairs = [
         (variable(quantity.name, what), quantity, what)
         for quantity in quantities
         for what in result._in_datasets(quantity.name)
     ]
-    coords = union([quantity for _, quantity, _ in listed])
+    coords = union([quantity for _, quantity, _ in pairs])
     if lazy is None:
         fitting(
             coords,
             *(
                 (quantity._dims_of(what), 16 if "order" in quantity.dims and what in COMPLEX else 8)
-                for _, quantity, what in listed
+                for _, quantity, what in pairs
             ),
         )
     arrays = {
@@ -117,7 +119,7 @@ def dataset(
             else quantity._picked(what, result.read(quantity.name, what)),
             {"units": quantity.kind.xarray_unit} if quantity.unit else {},
         )
-        for name, quantity, what in listed
+        for name, quantity, what in pairs
     }
     attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
     for quantity in quantities:
@@ -143,8 +145,8 @@ def variable(quantity: str, what: str = VALUES) -> str:
 
 def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Return the coordinates of some quantities: those of all first, axes last."""
-    known = {name: values for quantity in quantities for name, values in quantity.coords.items()}
-    return {name: known[name] for name in sorted(known, key=AXES.count)}
+    by_name = {name: values for quantity in quantities for name, values in quantity.coords.items()}
+    return {name: by_name[name] for name in sorted(by_name, key=AXES.count)}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:

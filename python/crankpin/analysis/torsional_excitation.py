@@ -299,15 +299,15 @@ def torsional_excitation(
     """
     engine_core(engine)
     cycles = engine.cycles
-    listed = orders
-    if listed is None:
+    chosen = orders
+    if chosen is None:
         step = 1 if cycles is None or engine.strokes == 2 else 0.5
-        listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
+        chosen = [step * k for k in range(1, round(HIGHEST / step) + 1)]
     several = inputs.is_listed(rpm)
     speeds = inputs.vector("rpm", rpm) if several else np.array([inputs.number("rpm", rpm)])
     if not len(speeds):
         raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
-    explicit = inputs.explicit_half_orders(listed)
+    explicit = inputs.explicit_half_orders(chosen)
     fastest = float(speeds[np.abs(speeds).argmax()])
     balance = engine.balance(fastest, orders=explicit)
     for speed in speeds.tolist():

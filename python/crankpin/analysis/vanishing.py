@@ -44,10 +44,10 @@ def vanishing_orders(
     engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
 ) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
-    listed = tuple(inputs.explicit_half_orders(orders))
+    chosen = tuple(inputs.explicit_half_orders(orders))
     plane = inputs.optional_number("reference_z", reference_z)
     checks.place(engine_core(engine), "reference_z", plane)
-    return VanishingOrders(engine, listed, plane)
+    return VanishingOrders(engine, chosen, plane)
 
 
 class Verdicts(Keyed, Tabled):

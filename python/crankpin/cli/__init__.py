@@ -89,12 +89,12 @@ def _text(argv: Sequence[str] | None) -> str:
     with warnings.catch_warnings():
         warnings.showwarning = _Warnings(arguments)
         try:
-            given = Given(arguments, typed)
+            call = Given(arguments, typed)
             with units.units(vars(arguments).get("units") or ""):
-                printed = outputs.shown(given, arguments.run)
+                printed = outputs.shown(call, arguments.run)
         except InputError as error:
             raise error_in_options(error, arguments.options, vars(arguments)) from None
-        for word in given.said:
+        for word in call.said:
             outputs.say(word)
         return printed
 

@@ -122,8 +122,8 @@ class Given:
     def echo(self, flag: str, unit: str) -> str:
         """Return what was typed, with the unit that a plain number has."""
         text: str = self.text(flag)
-        own = re.search(r"[^\d\s.,=:eE+/-]", text)
-        return text if own else f"{text} {units.convert(unit, self._setting).unit}"
+        has_unit = re.search(r"[^\d\s.,=:eE+/-]", text)
+        return text if has_unit else f"{text} {units.convert(unit, self._setting).unit}"
 
     def number(self, flag: str, unit: str = "") -> float:
         """Return the number of an option that has one."""
@@ -222,8 +222,8 @@ class Given:
                 rows = _core.read_amplitudes(flag, value, unit, plain)
                 fields[argument] = of_rows(rows, table=any(len(row) > 3 for row in rows))
             elif unit:
-                listed = [self.one(flag, part, unit) for part in value.split("/")]
-                fields[argument] = listed if len(listed) > 1 else listed[0]
+                numbers = [self.one(flag, part, unit) for part in value.split("/")]
+                fields[argument] = numbers if len(numbers) > 1 else numbers[0]
             else:
                 fields[argument] = {"yes": True, "no": False}.get(value, value)
         if "on" not in fields:
@@ -247,12 +247,12 @@ class Given:
 
     def engine(self, command: str) -> Engine:
         """Return the engine of a command that takes one."""
-        found = self.engines()
-        if len(found) > 1:
+        engines = self.engines()
+        if len(engines) > 1:
             name = self.text("name")
             members = ", ".join(presets.family(name))
             raise rejected("NAME", name, f"{command} takes one engine of {members}")
-        return next(iter(found.values()))
+        return next(iter(engines.values()))
 
     def quantity(self, engines: Iterable[Engine]) -> str:
         """Return ``--quantity``; by default moment, or force if no cylinder has a lever."""
@@ -271,12 +271,12 @@ class Given:
 
     def chosen(self) -> dict[str, Any]:
         """Return orders, or "auto", and the tolerance by which they are chosen, if it is given."""
-        listed = self.orders()
+        orders = self.orders()
         if self.text("--rtol") is None:
-            return {"orders": listed}
-        if listed != "auto":
+            return {"orders": orders}
+        if orders != "auto":
             raise rejected("--rtol", self.text("--rtol"), "needs --orders auto")
-        return {"orders": listed, "rtol": self.number("--rtol")}
+        return {"orders": orders, "rtol": self.number("--rtol")}
 
     def spectrum(self) -> Spectrum | None:
         """Return the spectrum of ``--spectrum``, order → amplitude in kg·m, if it is given."""
@@ -363,10 +363,10 @@ class Given:
 READERS: tuple[tuple[str, Callable[[Given, str, str], Any]], ...] = (
     (r"^sequence of number or str", Given.angles),
     (r"^number(,| or) str", Given.angle),
-    (r"^(str|path)", lambda given, flag, _: given.text(flag)),
-    (r"sequence of int|iterable of int", lambda given, flag, _: given.whole_numbers(flag)),
-    (r"^(int|\{-?\d)", lambda given, flag, _: given.whole(flag)),
-    (r"^array_like$", lambda given, flag, unit: given.one_or_several(flag, unit)),
+    (r"^(str|path)", lambda call, flag, _: call.text(flag)),
+    (r"sequence of int|iterable of int", lambda call, flag, _: call.whole_numbers(flag)),
+    (r"^(int|\{-?\d)", lambda call, flag, _: call.whole(flag)),
+    (r"^array_like$", lambda call, flag, unit: call.one_or_several(flag, unit)),
     (r"^(array_like|pair of float|sequence of float)", Given.numbers),
     (r"", Given.number),
 )

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-def _columns(given: Given, flag: str) -> list[int | str]:
+def _columns(call: Given, flag: str) -> list[int | str]:
     """Return columns by number or name."""
-    parts = (part.strip() for part in given.text(flag).split(","))
+    parts = (part.strip() for part in call.text(flag).split(","))
     return [int(part) if part.isdecimal() else part for part in parts]
 
 
@@ -90,14 +90,14 @@ ON = {"crank": "crank_torque", "block": "torque"}
     note="Order n is |T|·cos(n·θ + phase), θ the crank angle: cylinder 1 is at top dead centre\n"
     "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
-def _torque(given: Given) -> Shown:
-    engine, note = fired(given, "torque")
-    chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
-    balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
-    drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
+def _torque(call: Given) -> Shown:
+    engine, note = fired(call, "torque")
+    chosen, rpm = call.chosen(), call.number("--rpm", "rpm")
+    balance, quantity = engine.balance(rpm, **chosen), ON[call.text("--on")]
+    drawn = balance if call.text("--picture") == "spectrum" else engine.waveform(rpm)
     table = getattr(balance, quantity).table
     title = units.Text(f"{labels.name_of(engine)} at {rpm:g} rpm: ", table.title)
-    table = table if given.text("--csv") else in_short(table, balance, quantity)
+    table = table if call.text("--csv") else in_short(table, balance, quantity)
     rest = left_out(balance) if chosen["orders"] == "auto" else ""
     return Shown(
         only(changed(table, title=title)),
@@ -136,27 +136,27 @@ def _torque(given: Given) -> Shown:
     example="bearings i4 --rpm 6000 --load crankpin --axes crank --plot pin.png",
     note="Main bearings share the loads between them by the lever rule.",
 )
-def _bearings(given: Given) -> Shown:
-    engine, note = fired(given, "bearings")
-    kind = given.text("--picture")
-    loads = bearing_loads(engine, given.number("--rpm", "rpm"))
-    known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
-    options = {name: given.text(f"--{name}") for name in known}
+def _bearings(call: Given) -> Shown:
+    engine, note = fired(call, "bearings")
+    kind = call.text("--picture")
+    loads = bearing_loads(engine, call.number("--rpm", "rpm"))
+    accepted = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
+    options = {name: call.text(f"--{name}") for name in accepted}
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
-def fired(given: Given, name: str) -> tuple[Engine, str]:
+def fired(call: Given, name: str) -> tuple[Engine, str]:
     """Return the engine, with gas pressure unless there is none, and a note of what was assumed."""
-    engine: Engine = given.engine(name)
-    typed: Any = given.text("--cycle")
-    if (order := given.text("--firing-order")) is not None:
+    engine: Engine = call.engine(name)
+    typed: Any = call.text("--cycle")
+    if (order := call.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
     kind, _, load = (typed or "").partition(":")
     named = typed is None or kind in EXAMPLES or typed == WITHOUT
-    of_a_file = [option.label for option in OF_A_FILE if given.text(option.label)]
+    of_a_file = [option.label for option in OF_A_FILE if call.text(option.label)]
     if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
-    bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
+    bore, crankcase = call.optional("--bore", "m"), call.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
         cylinders = [
             cylinder if bore is None else cylinder.replace(bore=bore)
@@ -167,20 +167,20 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
                 hint = "needs gas pressure; give --cycle"
-                raise rejected(flag, given.text(flag), hint)
+                raise rejected(flag, call.text(flag), hint)
         return engine.with_cycle(None), ""
     if not named and not Path(typed).suffix:
         hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT}, or a text file"
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     if named:
-        part = given.one("--cycle", load, "", "a part of full load") if load else 1.0
+        part = call.one("--cycle", load, "", "a part of full load") if load else 1.0
         if not 0.0 <= part <= 1.0:
             raise rejected("--cycle", typed, "give a part of full load, 0 (idling) to 1")
         example: Any = kind or next(iter(EXAMPLES))
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
-        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(given, strokes))
+        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(call, strokes))
     cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
@@ -198,8 +198,11 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     cylinders = [
         cylinder.replace(bore=cylinder.bore or cylinder.stroke) for cylinder in engine.cylinders
     ]
-    known = all(cylinder.bore for cylinder in engine.cylinders)
-    return cylinders, "" if known else "Bores that are not known are taken to equal the stroke.\n"
+    has_bores = all(cylinder.bore for cylinder in engine.cylinders)
+    return (
+        cylinders,
+        "" if has_bores else "Bores that are not known are taken to equal the stroke.\n",
+    )
 
 
 @command(
@@ -210,7 +213,7 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     "--bore",
     *_of_files(
         "the files",
-        read=lambda given, flag: given.one_or_several(flag, "°"),
+        read=lambda call, flag: call.one_or_several(flag, "°"),
         metavar="ANGLE,…",
         more="; of several cylinders in one file that of each, their columns of pressure in "
         "--columns",
@@ -224,15 +227,15 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
     note="--save writes the engine with the mean of the prepared cycles.",
 )
-def _trace(given: Given) -> Shown:
-    engine = given.engine("trace")
-    cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
-    read_as = _read_as(given, engine.strokes)
+def _trace(call: Given) -> Shown:
+    engine = call.engine("trace")
+    cylinders, note = _with_bores(engine, call.optional("--bore", "m"))
+    read_as = _read_as(call, engine.strokes)
     centres = read_as.get("tdc_deg")
     several = isinstance(centres, list)
     if several and len(centres) != len(engine):
         hint = f"the engine has {len(engine)} cylinders; give one angle, or one for each"
-        raise rejected("--tdc", given.text("--tdc"), hint)
+        raise rejected("--tdc", call.text("--tdc"), hint)
     if several:
         read_as.setdefault("columns", None)
 
@@ -241,10 +244,10 @@ def _trace(given: Given) -> Shown:
             return _loaded(Traces.load_cylinders, option, path, read_as)
         return (_loaded(Traces.load, option, path, read_as),)
 
-    traces, motored = loaded("file", given.text("file")), given.text("--motored")
+    traces, motored = loaded("file", call.text("file")), call.text("--motored")
     without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
     prepared = [
-        prepare_trace(recorded, cylinder, motored=by_motoring, **given.keywords(prepare_trace))
+        prepare_trace(recorded, cylinder, motored=by_motoring, **call.keywords(prepare_trace))
         for recorded, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
     cycles = [trace.cycle for trace in prepared]
@@ -311,8 +314,8 @@ def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOpti
         raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
 
 
-def _read_as(given: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several
+def _read_as(call: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several
     """Return how a file of cylinder pressure is read."""
-    if given.text("--gauge") and given.text("--absolute"):
+    if call.text("--gauge") and call.text("--absolute"):
         raise inputs.faulty("--gauge", "cannot be combined with --absolute", "give one of them")
-    return {"strokes": strokes, **given.keywords(load)}
+    return {"strokes": strokes, **call.keywords(load)}

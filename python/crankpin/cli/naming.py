@@ -61,7 +61,7 @@ def error_in_options(
         error.argument = one.label + error.argument[len(name) :]
         if fault.startswith(" = "):
             error.value = fault[len(" = ") : -len(": ")]
-    error.hint = BARE.sub(lambda found: _label(found[0], options), _hint(error.hint, options))
+    error.hint = BARE.sub(lambda match: _label(match[0], options), _hint(error.hint, options))
     error.args = (f"{error.argument}{fault}{error.hint}",)
     return error
 
@@ -82,10 +82,10 @@ def warning_in_options(message: str, options: Iterable[Option], typed: Mapping[s
     """Return a warning of the library with the names of arguments and units of the shell."""
     # What a new engine is made of is an option or its default; of others it may be in the file.
     new = "kind" in typed
-    known = [option for option in options if new or typed.get(option.dest) is not None]
+    typed_options = [option for option in options if new or typed.get(option.dest) is not None]
     if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
-        known = [option for option in known if option.dest != "reciprocating_mass"]
-    named = BEGINS.sub(lambda found: _label(found[0], known), message)
+        typed_options = [option for option in typed_options if option.dest != "reciprocating_mass"]
+    named = BEGINS.sub(lambda match: _label(match[0], typed_options), message)
     named = _hint(named, [*options])
     if named == message and not new:  # a figure of an engine file, which has no units
         return message
@@ -101,15 +101,15 @@ def _label(argument: str, options: Iterable[Option]) -> str:
 def _hint(text: str, options: list[Option]) -> str:
     """Return a text with arguments, ``orders=[1, 2]``, as they are typed in a shell."""
 
-    def hint(found: re.Match[str]) -> str:
-        name, value = found.groups()
+    def hint(match: re.Match[str]) -> str:
+        name, value = match.groups()
         flags = [option for option in options if option.gives(name)]
         if value in ("True", "False"):
             # One that has another name than its argument sets that to False.
             flags = [flag for flag in flags if (flag.dest == name) is (value == "True")]
-            return flags[0].label if flags else found[0]
+            return flags[0].label if flags else match[0]
         plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
-        return f"{flags[0].label} {plain}" if flags else found[0]
+        return f"{flags[0].label} {plain}" if flags else match[0]
 
     return BUILDER.sub(_kind, CALL.sub(hint, text))
 

@@ -588,8 +588,8 @@ class Builders(EngineData):
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
         engine = cls(core, name, source, "", strokes)
-        known = allowed(core, order, strokes)
-        engine = furnished(engine, cylinder, rotating_mass, known)
+        possible = allowed(core, order, strokes)
+        engine = furnished(engine, cylinder, rotating_mass, possible)
         if fired[1] is None:
             return engine
         return cls(_core.Firing.at_intervals(engine._core, order, strokes, fired[1]).kept())
@@ -979,17 +979,17 @@ def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
         if further:
             raise inputs.rejected("crank", None, "give the crankshaft of each cylinder, from 0")
         return None
-    listed = [
+    places = [
         inputs.whole("crank", place, 0)
         for place in inputs.items("crank", crank, "give a whole number for each cylinder")
     ]
     count = len(inputs.items("bank_deg", bank_deg, "give a list of degrees"))
-    if len(listed) != count:
-        raise inputs.faulty("crank", f"has {len(listed)} entries", f"give {count}")
-    for text in listed:
+    if len(places) != count:
+        raise inputs.faulty("crank", f"has {len(places)} entries", f"give {count}")
+    for text in places:
         if text > len(further):
             raise inputs.rejected("crank", text, f"there are cranks 0 to {len(further)}")
-    return [(0.0, 0.0, 1), *further], listed
+    return [(0.0, 0.0, 1), *further], places
 
 
 def vee_layout(

@@ -405,11 +405,11 @@ class Cycle(Tabled, Input, ComputedCycles):
         >>> cycle.resolution_error(cylinder, [12]).round(5)  # an estimate
         array([8.e-05])
         """
-        listed = inputs.explicit_half_orders(orders)
+        chosen = inputs.explicit_half_orders(orders)
         checks.absolute("crankcase", inputs.finite("crankcase", crankcase))
         scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
         if self.degree is not None:
-            return np.zeros(len(listed))
+            return np.zeros(len(chosen))
         start = float(self.theta_deg[0])
         edges = np.append(self.theta_deg, start + self.period_deg)
         steps = np.diff(edges)
@@ -432,7 +432,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         way = np.abs(moves).sum(axis=1)
         turns = (moves.min(axis=1) < 0.0) & (moves.max(axis=1) > 0.0)
         way += 2.0 * turns * np.abs(moves).max(axis=1)
-        return np.full(len(listed), scale * (np.ptp(controls, axis=0) @ way))
+        return np.full(len(chosen), scale * (np.ptp(controls, axis=0) @ way))
 
     @property
     def table(self) -> Table:

@@ -167,8 +167,8 @@ class CycleMap(Tabled, Input):
             raise inputs.faulty(
                 "rpm", f"has shape {shapes}", "give shapes that broadcast"
             ) from None
-        found: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
-        return found
+        phasors: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
+        return phasors
 
     @property
     def table(self) -> Table:
@@ -192,5 +192,5 @@ def _weights(
     rows = np.arange(values.size)
     weights[rows, np.minimum(lower + 1, len(axis) - 1)] = share
     weights[rows, lower] = 1.0 - share
-    found: NDArray[np.float64] = weights.reshape(*values.shape, len(axis))
-    return found
+    by_node: NDArray[np.float64] = weights.reshape(*values.shape, len(axis))
+    return by_node

@@ -147,8 +147,8 @@ class EngineData:
     def cylinders(self) -> tuple[Cylinder, ...]:
         """Moving parts of each cylinder."""
         keys = [*zip(self._core.cylinders, self._core.details, strict=True)]
-        known = {key: Cylinder._of(*key) for key in set(keys)}
-        return tuple(known[key] for key in keys)
+        by_key = {key: Cylinder._of(*key) for key in set(keys)}
+        return tuple(by_key[key] for key in keys)
 
     @property
     def tdc_deg(self) -> NDArray[np.float64]:
@@ -205,8 +205,8 @@ class EngineData:
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m; by default midway between the end cylinders."""
-        given = self._core.reference_z
-        return self._core.middle if given is None else given
+        z = self._core.reference_z
+        return self._core.middle if z is None else z
 
     @property
     def cycles(self) -> tuple[Cycle | None, ...] | None:
@@ -214,12 +214,12 @@ class EngineData:
         cores = self._core.cycles
         if cores is None:
             return None
-        known: dict[_core.Cycle, Cycle] = {}
+        by_core: dict[_core.Cycle, Cycle] = {}
         for core in cores:
-            if core is not None and core not in known:
+            if core is not None and core not in by_core:
                 with suppressed():  # Warned of where it was given.
-                    known[core] = Cycle._of(core)
-        return tuple(None if core is None else known[core] for core in cores)
+                    by_core[core] = Cycle._of(core)
+        return tuple(None if core is None else by_core[core] for core in cores)
 
     @property
     def crankcase(self) -> float | None:
@@ -333,10 +333,10 @@ class EngineData:
         Those of the right bank if there are two; undefined for more, and for cylinders on several
         crankshafts. Of shape (n_throws,).
         """
-        found = self._banks_of_one_crank("throws_deg")
-        if len(found) > 2:
+        banks = self._banks_of_one_crank("throws_deg")
+        if len(banks) > 2:
             raise self._of_banks("throws_deg", "one or two are needed; see pin_deg")
-        pins = self.pin_deg[self._along(next(iter(found.values())))]
+        pins = self.pin_deg[self._along(next(iter(banks.values())))]
         return read_only(_reduced(pins - pins[0]))
 
     @property
@@ -345,10 +345,10 @@ class EngineData:
 
         Undefined unless there are two banks of as many cylinders, on one crankshaft.
         """
-        found = self._banks_of_one_crank("pin_split_deg")
-        if len(found) != 2:
+        banks = self._banks_of_one_crank("pin_split_deg")
+        if len(banks) != 2:
             raise self._of_banks("pin_split_deg", "exactly two are needed")
-        right, left = (self._along(numbers) for numbers in found.values())
+        right, left = (self._along(numbers) for numbers in banks.values())
         if len(right) != len(left):
             sizes = f"{len(right)} cylinders in the right bank and {len(left)} in the left"
             raise self._undefined("pin_split_deg", f"it has {sizes}; as many are needed")
@@ -369,10 +369,10 @@ class EngineData:
 
     def _of_banks(self, name: str, needed: str) -> InputError:
         directions = list(dict.fromkeys(self.bank_deg.tolist()))
-        listed = ", ".join(f"{direction:.6g}°" for direction in directions[:4])
-        listed += ", …" if len(directions) > 4 else ""
+        texts = ", ".join(f"{direction:.6g}°" for direction in directions[:4])
+        texts += ", …" if len(directions) > 4 else ""
         count = "one bank" if len(self.banks) == 1 else f"{len(self.banks)} banks"
-        return self._undefined(name, f"it has {count} ({listed}); {needed}")
+        return self._undefined(name, f"it has {count} ({texts}); {needed}")
 
     @staticmethod
     def _undefined(name: str, reason: str) -> InputError:

@@ -129,11 +129,11 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
         raise unknown("name", name)
     if cylinder is not None and not isinstance(cylinder, Cylinder):
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
-    found = layout(name)
-    distance = found.spacing if spacing is None else inputs.number("spacing", spacing)
+    base = layout(name)
+    distance = base.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):
         raise inputs.rejected("spacing", distance, "give a finite distance in metres")
-    return found.build(found.cylinder if cylinder is None else cylinder, distance)
+    return base.build(base.cylinder if cylinder is None else cylinder, distance)
 
 
 class Layout(NamedTuple):
@@ -230,7 +230,7 @@ def family(name: str) -> list[str]:
     return [preset for preset in members if not preset.endswith(OWN_PARTS)] or [name]
 
 
-def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> InputError:
+def unknown(argument: str, name: str, *, typed: bool = False, further: str = "") -> InputError:
     """Return the error of a name that is no preset's: the nearest ones, and what builds it.
 
     Parameters
@@ -259,7 +259,7 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
         built = "" if is_file else _recipe(plain, typed=typed)
     if not (near or built):
         more = "crankpin new makes" if typed else "Engine.inline, vee and the like make"
-        built = f"{own or f'{more} engines of your own'}; "
+        built = f"{further or f'{more} engines of your own'}; "
     quoted = " or ".join(f'"{preset}"' for preset in dict.fromkeys(near))
     question = f"did you mean {quoted}? " if near else ""
     listing = (
@@ -267,9 +267,9 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
         if typed
         else "crankpin.presets() lists all"
     )
-    shown = labels.cut(labels.one_line(name), 80)
+    title = labels.cut(labels.one_line(name), 80)
     hint = f"no such preset; {question}{built}{listing}"
-    return inputs.faulty(argument, f'= "{shown}"', hint, AbsentItemError)
+    return inputs.faulty(argument, f'= "{title}"', hint, AbsentItemError)
 
 
 RECIPES = (

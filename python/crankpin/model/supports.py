@@ -59,11 +59,11 @@ class Subframe(Input):
     def __post_init__(self) -> None:
         if not isinstance(self.body, RigidBody):
             raise inputs.rejected("body", self.body, "give a crankpin.RigidBody")
-        listed = inputs.items("mounts", self.mounts, "give a list of crankpin.Mount")
-        for k, mount in enumerate(listed):
+        entries = inputs.items("mounts", self.mounts, "give a list of crankpin.Mount")
+        for k, mount in enumerate(entries):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
-        self.__dict__["mounts"] = tuple(listed)
+        self.__dict__["mounts"] = tuple(entries)
         _core.check_support(self._figures)
 
     @property
@@ -121,12 +121,12 @@ class Receptance(Input):
             "give a pair: frequencies in Hz, and complex receptances of shape "
             "(n_frequencies, n_coordinates, n_coordinates), m/N"
         )
-        listed = inputs.items("table", self.table, hint)
-        if len(listed) != 2:
+        entries = inputs.items("table", self.table, hint)
+        if len(entries) != 2:
             raise inputs.rejected("table", self.table, hint)
-        frequency = inputs.listed_numbers("table: frequency", listed[0])
+        frequency = inputs.listed_numbers("table: frequency", entries[0])
         square = (len(frequency), len(pairs), len(pairs))
-        values = _complex("table: receptance", listed[1], square, hint)
+        values = _complex("table: receptance", entries[1], square, hint)
         points = []
         for name, moved in _named(self.receivers):
             hint = (
@@ -184,15 +184,15 @@ def of_core(figures: Any) -> Support | None:  # noqa: ANN401 - as the core gives
 
 def _complex(
     name: str,
-    given: Any,  # noqa: ANN401 - checked here
+    rows: Any,  # noqa: ANN401 - checked here
     shape: tuple[int, ...],
     hint: str,
 ) -> NDArray[np.complex128]:
     """Return complex numbers of a shape."""
     try:
-        values = np.array(given, dtype=complex)
+        values = np.array(rows, dtype=complex)
     except (TypeError, ValueError) as error:
-        raise inputs.rejected(name, given, f"{hint} ({inputs.reason(error)})") from None
+        raise inputs.rejected(name, rows, f"{hint} ({inputs.reason(error)})") from None
     if values.shape != shape:
         raise inputs.faulty(name, f"has shape {values.shape}", hint)
     return values
@@ -201,7 +201,7 @@ def _complex(
 def _nested(values: NDArray[np.complex128]) -> Any:  # noqa: ANN401 - tuples of tuples
     """Return an array as tuples, which compare and hash."""
 
-    def frozen(listed: Any) -> Any:  # noqa: ANN401 - a list or a number
-        return tuple(map(frozen, listed)) if isinstance(listed, list) else listed
+    def frozen(value: Any) -> Any:  # noqa: ANN401 - a list or a number
+        return tuple(map(frozen, value)) if isinstance(value, list) else value
 
     return frozen(values.tolist())

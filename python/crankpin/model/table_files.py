@@ -104,7 +104,7 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
     places: list[NDArray[np.int64]] = []
     line = count = length = 0
     for texts in _pieces(file, sheet):
-        kept, at = list[str](), list[int]()
+        lines, at = list[str](), list[int]()
         for text in texts:
             line += 1
             stripped = text.strip()
@@ -124,21 +124,21 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
                 heads, names = (_cells(line, separator) for line in (header, above))
                 _check_commas(stripped, line, separator, cells, heads)
                 names = names if len(names) == len(heads) == len(cells) else []
-                listed = range(len(cells)) if columns is None else columns
-                chosen = [_place(heads, names, column, len(cells)) for column in listed]
+                wanted = range(len(cells)) if columns is None else columns
+                chosen = [_place(heads, names, column, len(cells)) for column in wanted]
                 rows = _Rows(separator, len(cells), chosen, columns is None, indented)
             if stripped[0] not in "#%!":
                 # The first cell of a line may be empty, where tabs separate them.
-                kept.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
+                lines.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
                 at.append(line)
         if rows is None:
             length += sum(map(len, texts))
             if length > _core.LONGEST_FILE:
                 break
-        elif kept:
-            part, found = rows.numbers(kept, at)
+        elif lines:
+            part, parsed = rows.numbers(lines, at)
             parts.append(part)
-            places.append(np.array(found, dtype=np.int64))
+            places.append(np.array(parsed, dtype=np.int64))
             count += len(part)
             if count * len(rows.places) > inputs.MOST_NUMBERS:
                 fault = f"has more than {inputs.MOST_NUMBERS} numbers"
@@ -250,18 +250,18 @@ class _Rows:
         if self._are_plain(rows):
             comma = self.mark == ","
             with contextlib.suppress(ValueError):
-                found = np.loadtxt(
+                parsed = np.loadtxt(
                     [row.replace(",", ".") for row in rows] if comma else rows,
                     delimiter=self.separator, usecols=self.places, ndmin=2, comments=None,
                     quotechar='"',
                 )  # fmt: skip
-                needed = found[:, :2] if self.every else found
-                if len(found) == len(rows) and np.isfinite(needed).all():
-                    return found, lines
+                needed = parsed[:, :2] if self.every else parsed
+                if len(parsed) == len(rows) and np.isfinite(needed).all():
+                    return parsed, lines
         read = [self._row(row, line) for row, line in zip(rows, lines, strict=True)]
-        kept = [k for k, row in enumerate(read) if row is not None]
-        numbers = np.array([read[k] for k in kept], dtype=np.float64)
-        return numbers.reshape(-1, len(self.places)), [lines[k] for k in kept]
+        places = [k for k, row in enumerate(read) if row is not None]
+        numbers = np.array([read[k] for k in places], dtype=np.float64)
+        return numbers.reshape(-1, len(self.places)), [lines[k] for k in places]
 
     def _are_plain(self, rows: list[str]) -> bool:
         """Return whether lines have no cell too many and one decimal mark, which is noted."""
@@ -351,14 +351,14 @@ def _place(header: list[str], names: list[str], column: object, width: int) -> i
         return place
     for plain in (str, _bare):
         for heads in (header, names):
-            found = [k for k, head in enumerate(heads) if plain(head) == plain(column)]
-            if len(found) == 1 or (found and plain is str):
-                return found[0]
-            if found:
-                listed = ", ".join(repr(heads[k]) for k in found[:FIRST_WORDS])
-                raise inputs.rejected("columns", column, f"there are {listed}; give one in full")
-    listed = ", ".join(map(repr, (names or header)[:FIRST_WORDS])) or "none"
-    raise inputs.rejected("columns", column, f"there is none; the file has {listed}")
+            places = [k for k, head in enumerate(heads) if plain(head) == plain(column)]
+            if len(places) == 1 or (places and plain is str):
+                return places[0]
+            if places:
+                choices = ", ".join(repr(heads[k]) for k in places[:FIRST_WORDS])
+                raise inputs.rejected("columns", column, f"there are {choices}; give one in full")
+    choices = ", ".join(map(repr, (names or header)[:FIRST_WORDS])) or "none"
+    raise inputs.rejected("columns", column, f"there is none; the file has {choices}")
 
 
 def _bare(head: str) -> str:

@@ -244,16 +244,16 @@ class Traces(Tabled, Input):
         (3, 2)
         """
         several = not isinstance(cycles, (int, np.integer)) or isinstance(cycles, bool)
-        listed = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
-        out = [item_key(key, len(self), "cycles") for key in listed]
+        entries = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
+        out = [item_key(key, len(self), "cycles") for key in entries]
         return self._some(np.delete(np.arange(len(self)), out), "cycles", cycles)
 
-    def _some(self, kept: NDArray[np.intp], argument: str, value: object) -> Self:
+    def _some(self, places: NDArray[np.intp], argument: str, value: object) -> Self:
         """Return some of the cycles."""
-        if not len(kept):
+        if not len(places):
             raise inputs.rejected(argument, value, "one cycle must stay")
         with suppressed():  # Warned of where all were given.
-            return self.replace(pressure=self.pressure[kept])
+            return self.replace(pressure=self.pressure[places])
 
     @functools.cached_property
     def _oddities(self) -> Oddities:
@@ -279,9 +279,9 @@ class Traces(Tabled, Input):
         ]
         heads: list[str | tuple[str, str]] = ["cycle", "kind", ("crank angle", "°"), "size"]
         row_units = tuple(oddity.unit for oddity in self._oddities.listed)
-        found = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
+        table = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
         unit = Column("unit", row_units or ())
-        return changed(found, columns=(*found.columns, unit), row_units=row_units)
+        return changed(table, columns=(*table.columns, unit), row_units=row_units)
 
     def __iter__(self) -> Iterator[Cycle]:
         """Return an iterator over the cycles."""
@@ -390,15 +390,15 @@ class Traces(Tabled, Input):
             Peak phasors, N·m. Their mean is that of the mean cycle.
 
         """
-        listed = inputs.explicit_half_orders(orders)
+        chosen = inputs.explicit_half_orders(orders)
         below = inputs.number("crankcase", crankcase)
         checks.absolute("crankcase", below)
         with suppressed("crankcase ="):
-            found = [
-                cycle.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
+            phasors = [
+                cycle.torque_harmonics(cylinder, chosen, crankcase=below + self._raised)
                 for cycle in self._raised_cycles()
             ]
-        return np.array(found)
+        return np.array(phasors)
 
     @documented(torque_harmonics)
     def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
@@ -417,8 +417,8 @@ class Traces(Tabled, Input):
             phases included; over the root of the number of cycles it is the mean's standard error.
 
         """
-        listed = inputs.explicit_half_orders(orders)
-        phasors = self.torque_harmonics(cylinder, listed)
+        chosen = inputs.explicit_half_orders(orders)
+        phasors = self.torque_harmonics(cylinder, chosen)
         figures = [
             ("peak pressure", "bar", self.peaks / 1e5),
             ("angle of peak", "°", self.peaks_deg),
@@ -435,7 +435,7 @@ class Traces(Tabled, Input):
             )
             for name, unit, values in figures
         ]
-        for order, phasor in zip(listed, phasors.T, strict=True):
+        for order, phasor in zip(chosen, phasors.T, strict=True):
             sizes = np.abs(phasor)
             mean = float(abs(phasor.mean()))
             extremes = float(sizes.min()), float(sizes.max())
@@ -445,14 +445,14 @@ class Traces(Tabled, Input):
         ]
         names, row_units, *columns = zip(*rows, strict=True)
         heads = ("mean", "deviation", "least", "largest")
-        shown = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
+        numbers = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
         return Table(
             f"{self._title}, spread",
             (
                 Column("figure", names),
-                *shown[:2],
+                *numbers[:2],
                 Column("COV", tuple(of_mean), "%", digits=3),
-                *shown[2:],
+                *numbers[2:],
                 Column("unit", row_units),
             ),
             row_units=row_units,
@@ -479,9 +479,9 @@ class Traces(Tabled, Input):
         InputError
             If half of the points are fewer than a table has.
         """
-        listed = inputs.explicit_half_orders(orders)
-        between = self._raised_mean.resolution_error(cylinder, listed, crankcase=crankcase)
-        phasors = self.torque_harmonics(cylinder, listed, crankcase=crankcase)
+        chosen = inputs.explicit_half_orders(orders)
+        between = self._raised_mean.resolution_error(cylinder, chosen, crankcase=crankcase)
+        phasors = self.torque_harmonics(cylinder, chosen, crankcase=crankcase)
         over_cycles = [_deviation(phasor) / math.sqrt(len(self)) for phasor in phasors.T]
         return np.hypot(between, over_cycles)
 

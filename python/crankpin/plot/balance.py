@@ -118,9 +118,9 @@ def stems(
     look |= style | {"markevery": slice(1, None, 3)}
     (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **look)
     zeros = orders[peaks == 0.0]
-    known = ZERO in ax.get_legend_handles_labels()[1]
+    has_zero = ZERO in ax.get_legend_handles_labels()[1]
     look = {"markersize": 5.0, "transform": ax.get_xaxis_transform(), "gid": ZEROS}
-    name = ZERO if zeros.size and not known else ""
+    name = ZERO if zeros.size and not has_zero else ""
     hollow(ax, zeros, np.zeros_like(zeros), line.get_color(), label=name, **look)
 
 
@@ -178,26 +178,26 @@ def ellipses(
     """Draw a panel for each of the largest orders, or all of them on given axes."""
     name = plane_vector(quantity, result)
     places, note = largest(result, name)
-    shown = [result.orders[place] for place in places]
+    orders = [result.orders[place] for place in places]
     where = joined(QUANTITIES[name].words, f"{number(result.rpm)} rpm", loads_of(result, name))
     if ax is not None:
         ax = axes_or_new(ax)
         set_title(ax, labels.name_of(result.engine), where, note)
-        for order, look in zip(shown, series(ax, len(shown), style), strict=True):
+        for order, look in zip(orders, series(ax, len(orders), style), strict=True):
             curve = result[order]
             ellipse(ax, curve, name, f"order {order}: {direction(curve, name)}", look)
         scale_plane(ax)
         label_plane(ax, name)
         add_legend(ax)
         return ax
-    grid = make_plane_panels(figure, len(shown))
+    grid = make_plane_panels(figure, len(orders))
     panels = grid.axes.ravel()
-    for panel, order in zip(panels, shown, strict=False):
+    for panel, order in zip(panels, orders, strict=False):
         curve = result[order]
         ellipse(panel, curve, name, "", series(panel, 1, style)[0])
         set_panel_title(panel, f"order {order}", direction(curve, name))
         scale_plane(panel)
-    if not shown:
+    if not orders:
         scale_plane(panels[0])
     along_x, along_y = QUANTITIES[name].components
     label_panels(grid, along_x, along_y, QUANTITIES[name].unit)

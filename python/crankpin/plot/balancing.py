@@ -138,8 +138,8 @@ def _balancers(
     alone = not count_series(ax)
     room = _room(ax)
     most = max(1, min(MOST_SETS, int(room / SMALLEST)) - len(names_there(ax)))
-    shown = result.pareto_front[:most]
-    left_out = len(result.pareto_front) - len(shown)
+    options = result.pareto_front[:most]
+    left_out = len(result.pareto_front) - len(options)
     set_title(
         ax,
         labels.name_of(result.engine),
@@ -149,16 +149,16 @@ def _balancers(
         label = labels.name_of(result.engine)
     start = np.array(result[0].values)
     parts = (
-        np.array([option.values for option in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
+        np.array([option.values for option in options]) / np.where(start > 0.0, start, 1.0) * 100.0
     )
     drawn = [k for k, value in enumerate(start) if value > 0.0]
     wide_enough(ax, max(100.0, float(parts[:, drawn].max(initial=0.0))))
-    rows = rows_for(ax, [_short(option.name) for option in shown])
+    rows = rows_for(ax, [_short(option.name) for option in options])
     usual = font_of("ytick.labelsize", "medium").get_size_in_points()
     size = max(SMALLEST, min(usual, room / len(ax.get_yticks())))
     ax.tick_params(axis="y", labelsize=size)
     limits = dict(result.targets)
-    reached = np.array([option.reaches for option in shown])
+    reached = np.array([option.reaches for option in options])
     for k in drawn:
         name = result.by[k]
         (look,) = series(ax, 1, style)
@@ -174,7 +174,7 @@ def _balancers(
         if reached.any():
             ring(ax, parts[reached, k], rows[reached], foreground(ax), "o", REACHED)
     if alone:
-        _write_amounts(ax, rows, shown, size)
+        _write_amounts(ax, rows, options, size)
     else:  # amounts of several engines would share a row
         for child in ax.child_axes:
             child.set_visible(False)
@@ -194,14 +194,14 @@ def _room(ax: Axes) -> float:
 
 
 def _write_amounts(
-    ax: Axes, rows: NDArray[np.intp], shown: Sequence[BalancerOption], size: float
+    ax: Axes, rows: NDArray[np.intp], options: Sequence[BalancerOption], size: float
 ) -> None:
     """Write the unbalance of each set on the right."""
     amounts = ax.secondary_yaxis("right")
     unit, factor = units.convert("kg·m")
     if factor == 1.0:
         unit, factor = "g·m", 1000.0
-    texts = [rounded(factor * option.unbalance) for option in shown]
+    texts = [rounded(factor * option.unbalance) for option in options]
     amounts.set_yticks(rows, texts, fontsize=size)
     amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
     amounts.set_ylabel(f"unbalance, {unit}", color=muted(ax))
@@ -254,7 +254,7 @@ def _bob_weight(
     corners = [factor for factor, _ in lines] + [result.optimal_factor(name) or 0.0, result.factor]
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
     longest, shortest = result.half_axes(name, factors)
-    own = result.half_axes(name, result.factor)
+    axes_of = result.half_axes(name, result.factor)
     set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
     curves = {"longest": longest, "shortest": np.abs(shortest)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
@@ -267,7 +267,7 @@ def _bob_weight(
     drawn = [line.get_ydata() for line in ax.lines if line.get_gid() == SERIES]
     from_zero(ax, max(float(np.max(values)) for values in drawn))
     x = np.array([result.factor, result.factor])
-    ring(ax, x, np.abs(own), foreground(ax), "o", "this factor")
+    ring(ax, x, np.abs(axes_of), foreground(ax), "o", "this factor")
     if lines:
         x = np.array([factor for factor, _ in lines])
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")

@@ -170,10 +170,10 @@ def _places(numbers: Iterable[int] | None, count: int) -> list[int]:
     if numbers is None:
         return list(range(count))
     hint = f"give whole numbers from 1 to {count}"
-    listed = [inputs.whole("numbers", number) for number in inputs.items("numbers", numbers, hint)]
-    if not listed or not all(1 <= number <= count for number in listed):
-        raise inputs.rejected("numbers", listed, hint)
-    return [number - 1 for number in listed]
+    chosen = [inputs.whole("numbers", number) for number in inputs.items("numbers", numbers, hint)]
+    if not chosen or not all(1 <= number <= count for number in chosen):
+        raise inputs.rejected("numbers", chosen, hint)
+    return [number - 1 for number in chosen]
 
 
 def _names(load: str, places: list[int], label: str | None) -> list[str]:

@@ -90,9 +90,9 @@ def _total(result: Comparison, name: str) -> str:
     before, after = (getattr(balance.total, name).peak for balance in (result.before, result.after))
     kind = QUANTITIES[name]
     what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
-    shown = units.convert(kind.unit)
-    sizes = (rounded(value * shown.factor, 4) for value in (before, after))
-    values = f"{' → '.join(sizes)} {shown.unit}"
+    converted = units.convert(kind.unit)
+    sizes = (rounded(value * converted.factor, 4) for value in (before, after))
+    values = f"{' → '.join(sizes)} {converted.unit}"
     return f"{what} {values} ({changed(before, after)})"
 
 
@@ -115,28 +115,28 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     """Draw a pair of bars for each order, and above it how it changes."""
     pairs = np.array([getattr(balance, name).peak for balance in (result.before, result.after)])
     top = float(pairs.max(initial=0.0))
-    shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
-    orders = np.array(result.orders, dtype=np.float64)[shown]
+    places = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
+    orders = np.array(result.orders, dtype=np.float64)[places]
     width = WIDTH * float(np.diff(orders).min(initial=1.0))
     looks = series(ax, 2)
     hatches = ("////", None)  # for print without colour
-    for k, (peaks, text) in enumerate(zip(pairs[:, shown], result.names, strict=True)):
+    for k, (peaks, text) in enumerate(zip(pairs[:, places], result.names, strict=True)):
         fill = {
             "color": looks[k]["color"], "hatch": hatches[k], "edgecolor": background(ax),
             "linewidth": 0.0,
         }  # fmt: skip
         ax.bar(orders + (k - 0.5) * width, peaks, 0.96 * width, label=text, **(fill | style))
-    if not shown:
+    if not places:
         note_zero(ax)
     last = float(orders.max(initial=0.0)) + 1.0
-    texts = [changed(*pairs[:, k].tolist()) for k in shown]
+    texts = [changed(*pairs[:, k].tolist()) for k in places]
     widths = [points_of(ax, text, FontProperties(size="x-small")) for text in texts]
     # The layout will take a part of the axes for labels.
     apart = float(np.diff(orders).min(initial=last)) / last
     upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
     if 72.0 * inches_of(ax) * apart < LINE:
         texts = [""] * len(texts)
-    for order, k, text in zip(orders.tolist(), shown, texts, strict=True):
+    for order, k, text in zip(orders.tolist(), places, texts, strict=True):
         look = {"va": "bottom", "fontsize": "x-small", "rotation": 90.0 if upright else 0.0}
         write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
     ax.set_xlim(0.0, last)

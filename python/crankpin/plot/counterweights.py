@@ -99,9 +99,9 @@ def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> D
         hint = 'kind="summary" shows one result; give kind="weights" and ax'
         raise inputs.rejected("label", style["label"], hint)
     before = over_square(result.engine, [1])[1]
-    shown = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
-    shown += ["moment"] if not shown else []
-    count = 1 + len(shown)
+    vectors = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
+    vectors += ["moment"] if not vectors else []
+    count = 1 + len(vectors)
     beside = width_for(figure) >= NARROWEST * count
     grid = make_panels(
         None, figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
@@ -109,7 +109,7 @@ def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> D
     panels = grid.axes.ravel()
     set_panel_title(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
-    for panel, name in zip(panels[1:], shown, strict=True):
+    for panel, name in zip(panels[1:], vectors, strict=True):
         set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
     set_figure_title(

@@ -91,13 +91,13 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     ink = inks_of(ax)
     largest = crank_radius(engine)
     half = 0.65 * JOURNAL * largest
-    shown = cranks_with_parts(engine)
-    pins = {crank: pins_in_line(engine, theta_deg, crank) for crank in shown}
+    cranks = cranks_with_parts(engine)
+    pins = {crank: pins_in_line(engine, theta_deg, crank) for crank in cranks}
     masses, weights = rotating_masses(engine, theta_deg), weights_on_crank(engine, theta_deg)
     rotating, balancing = (
         [
             (crank, *group)
-            for crank in shown
+            for crank in cranks
             for group in by_direction(one for one in kind if one.crank == crank).items()
         ]
         for kind in (masses, weights)
@@ -107,7 +107,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
     reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + radius for radius in rounds)])
     limit = 1.25 * reach
-    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(shown)}
+    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(cranks)}
     sectors = [
         *(
             disc(centres[crank] + largest * at, radius)
@@ -121,7 +121,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     faces = [ink.journal] * len(rotating) + [ink.weight] * len(balancing)
     add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
     looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    places = [(centres[crank], centres[crank] + at) for crank in shown for at in pins[crank]]
+    places = [(centres[crank], centres[crank] + at) for crank in cranks for at in pins[crank]]
     add(ax, [bar(axis, at, 2.6 * half, 1.3 * half) for axis, at in places], **(looks | style))
     journals = [
         *(disc(centre, 1.5 * half) for centre in centres.values()),
@@ -130,7 +130,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     faces = [ink.paper] * len(centres) + [ink.journal] * len(places)
     add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
     # The layout may make the axes smaller yet.
-    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(shown))
+    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(cranks))
     for crank, centre in centres.items():
         circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
         ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
@@ -138,12 +138,12 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         arrow_round(ax, largest, gap, ink, centre, engine._core.cranks[0][crank][2])
         for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
             outside(ax, centre + reach * at, listed(cylinders), centre)
-        if len(shown) > 1:
+        if len(cranks) > 1:
             text = plain_text(crank_text(engine, crank))
             write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
     ax.set_aspect("equal")
-    ax.set_xlim(-limit, limit + 2.0 * limit * (len(shown) - 1))
-    ax.set_ylim(-limit if len(shown) == 1 else -1.3 * limit, limit)
+    ax.set_xlim(-limit, limit + 2.0 * limit * (len(cranks) - 1))
+    ax.set_ylim(-limit if len(cranks) == 1 else -1.3 * limit, limit)
     ax.set_axis_off()
 
 

@@ -130,11 +130,11 @@ def engine_looks(
     The others are thin lines below them, with one entry in the legend.
     """
     count = len(names) if len(names) <= DISTINCT else NAMED
-    kept = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
+    largest = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
     looks = series(ax, count, style)
-    curves = [Curve((k,), look, names[k]) for k, look in zip(kept, looks, strict=True)]
+    curves = [Curve((k,), look, names[k]) for k, look in zip(largest, looks, strict=True)]
     handles = [Line2D([], [], **curve.style, label=curve.name) for curve in curves]
-    rest = [k for k in range(len(names)) if k not in kept]
+    rest = [k for k in range(len(names)) if k not in largest]
     if rest:
         grey: dict[str, Any] = {"color": muted(ax, 0.35), "zorder": 1.9, **THIN}
         text = f"{len(rest)} others"

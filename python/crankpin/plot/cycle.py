@@ -163,8 +163,8 @@ def _prepared(
         span(changes, theta)
         degrees(changes.xaxis)
         label_x(changes, "crank angle after the firing top dead centre")
-    shown = map(units.shown, result.names[1:])
-    steps = [name.partition(" (")[0].partition(": ")[0] for name in shown]
+    names = map(units.shown, result.names[1:])
+    steps = [name.partition(" (")[0].partition(": ")[0] for name in names]
     panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
     return panels.drawn
 

@@ -284,16 +284,16 @@ class _FittedText:
 
 def _cut(place: Axes | FigureBase, text: str, room: float, font: FontProperties) -> str:
     """Cut a line of text to some pixels, with an ellipsis."""
-    kept = text
-    while _width(place, kept, font) > room:
-        shorter = text[: len(kept) - 2]
+    short = text
+    while _width(place, short, font) > room:
+        shorter = text[: len(short) - 2]
         if not shorter:
             break
         # Words are left out whole where several remain.
         words, _, rest = shorter.rpartition(" ")
         text = words if len(words) > len(rest) else shorter
-        kept = f"{text.rstrip(' ,;:')}…"
-    return kept
+        short = f"{text.rstrip(' ,;:')}…"
+    return short
 
 
 # --- titles and labels --------------------------------------------------------------------------
@@ -308,10 +308,10 @@ def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     if before:
         lines = tuple(line for line in lines if plain_text(line) in before)
     size = font_of("axes.titlesize", "medium").get_size()
-    kept = [line for line in lines if line]
-    text = ax.set_title(plain_text("\n".join(kept)), loc="left", fontsize=size, pad=pad)
+    remaining = [line for line in lines if line]
+    text = ax.set_title(plain_text("\n".join(remaining)), loc="left", fontsize=size, pad=pad)
     short = _cell(ax, "height") < SHORT * _root(ax).dpi
-    _fit(ax, text, _FittedText(text, kept, ax, most=2 if short else None))
+    _fit(ax, text, _FittedText(text, remaining, ax, most=2 if short else None))
 
 
 def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
@@ -392,10 +392,10 @@ class _Apart:
             before = text.get_visible()
             text.set_visible(True)  # the extent of hidden texts is nothing
             box = text.get_window_extent()
-            shown = not any(box.overlaps(other) for other in boxes)
-            boxes += [box] if shown else []
-            text.set_visible(shown)
-            changed |= shown != before
+            is_free = not any(box.overlaps(other) for other in boxes)
+            boxes += [box] if is_free else []
+            text.set_visible(is_free)
+            changed |= is_free != before
         return changed
 
 

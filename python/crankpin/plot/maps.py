@@ -156,9 +156,9 @@ def _rows(
         raise inputs.faulty("ax", fault, "there is a panel for each; give figure")
     first = rows.rows[0]
     what = f", {first.name}" if first.name else ""
-    kept = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINES])]
-    rest = len(names) - len(kept)
-    return rows._replace(rows=kept), f"{rest} more engines not shown" if rest else ""
+    drawn = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINES])]
+    rest = len(names) - len(drawn)
+    return rows._replace(rows=drawn), f"{rest} more engines not shown" if rest else ""
 
 
 def heat(

@@ -73,10 +73,10 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     from_zero(ax, largest, name="x")
     label_x(ax, "natural frequency, Hz")
     merits = zip(result.names, result.before, result.after, result.limits, strict=True)
-    said = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
+    changes = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
     missed = "" if result.reached else "requirements not reached"
     set_title(
-        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *said
+        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *changes
     )
     add_legend(ax, last="modes between")
     return ax
@@ -139,13 +139,13 @@ def _designs(
         of_all = f"{len(picked)} of {len(result)} designs" if len(picked) < len(result) else ""
         label = of_all or f"{len(result)} designs"
         ax.plot(speeds, values, label="" if place else label, **thin)
-    own = peaks(chosen)
+    nominal = peaks(chosen)
     (look,) = series(ax, 1, {"linewidth": 2.2, "linestyle": "-"} | style)
-    ax.plot(speeds, own, gid=SERIES, label=f"design {chosen}", **look)
+    ax.plot(speeds, nominal, gid=SERIES, label=f"design {chosen}", **look)
     span(ax, speeds)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
-    from_zero(ax, max(largest, float(own.max())))
+    from_zero(ax, max(largest, float(nominal.max())))
     label_x(ax, "crank speed, rpm")
     label_y(ax, units.headed("peak", "N"))
     words = "force on the body" if name is None else f"force of mount {name}"
@@ -225,8 +225,8 @@ def _axes(
     cg = np.array(powertrain.body.cg)
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
     corners = [places[name] for name in powertrain.static().support_polygon]
-    own, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
-    is_dynamic = abs(dynamic - own) > SAME * own
+    static, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
+    is_dynamic = abs(dynamic - static) > SAME * static
     lines = [
         ("torque roll axis", cg, result.torque_roll),
         ("elastic roll axis", result.elastic_foot, result.elastic),

@@ -69,24 +69,24 @@ def parts(
         raise inputs.rejected("kind", "parts", f"{hint} beside {along}")
     if ax is not None and len(chosen) * len(names) > 1:
         raise inputs.rejected("ax", ax, "there is a panel for each order and engine; give figure")
-    made, panels = _panels(ax, figure, len(chosen), len(names))
+    grid, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
-        if not made.single:
+        if not grid.single:
             of = ", ".join(filter(None, (f"order {chosen[row]}", names[column])))
             set_panel_title(panel, of)
         _draw(panel, sweep, vectors[row], along, style, column)
-        if made.single or panel.get_subplotspec().is_first_col():
+        if grid.single or panel.get_subplotspec().is_first_col():
             label_y(panel, QUANTITIES[name].words, units.headed("", QUANTITIES[name].unit))
-        if made.single or panel.get_subplotspec().is_last_row():
+        if grid.single or panel.get_subplotspec().is_last_row():
             label_x(panel, dimension(along))
     for of_order, vector in zip(panels, vectors, strict=True):
         for panel in of_order:
             magnitude_scale(panel, _sizes(vector), logarithmic=logarithmic)
-    what = f"order {chosen[0]}" if made.single else note
-    made.set_title(words.title, words.subtitle(name), what)
+    what = f"order {chosen[0]}" if grid.single else note
+    grid.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]
-    made.add_legend([*both, *entries_of(panels, ZERO)])
-    return made.drawn if made.single else panels
+    grid.add_legend([*both, *entries_of(panels, ZERO)])
+    return grid.drawn if grid.single else panels
 
 
 def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Panels, NDArray[Any]]:

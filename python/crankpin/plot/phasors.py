@@ -83,24 +83,24 @@ def phasors(
         raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
     kind = drawn_quantity(quantity, nonzero_in(result))
     result._request.check(kind)
-    shown = inputs.explicit_half_orders(
+    chosen = inputs.explicit_half_orders(
         orders if orders is not None else result._request.orders or ORDERS
     )
-    whole = result._at_orders(tuple(shown))
+    whole = result._at_orders(tuple(chosen))
     arms = adding.contributions(whole, kind)
     sums = adding.phasors(whole, kind)
     rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)
     width, height = mpl.rcParams["figure.figsize"]
     # Square panels, each below its two lines, between the title and the legend.
-    inches = len(rows) * (0.8 * width / len(shown) + 0.4) + 1.1
+    inches = len(rows) * (0.8 * width / len(chosen) + 0.4) + 1.1
     row_height = (inches / height - 0.25) / len(rows)
-    figure, axes, _ = make_panels(None, figure, len(rows), len(shown), row_height=row_height)
+    figure, axes, _ = make_panels(None, figure, len(rows), len(chosen), row_height=row_height)
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
     font = FontProperties(size="small")
     widths = {part: points_of(figure, part, font) for part in {arm.part for arm in arms}}
     aside = crowded = False
-    for column, order in enumerate(shown):
+    for column, order in enumerate(chosen):
         for row, part in enumerate(rows):
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
@@ -251,9 +251,9 @@ def _lanes(arrows: Sequence[tuple[complex, complex]]) -> list[int]:
         length = high - low
         used = {
             lane
-            for other, there, first, last, lane in taken
+            for other, place, first, last, lane in taken
             if abs(other - across) < 1e-6
-            and abs(there - offset) < 1e-6 * length
+            and abs(place - offset) < 1e-6 * length
             and min(high, last) - max(low, first) > 1e-6 * length
         }
         lane = next(k for k in range(len(used) + 1) if k not in used)
@@ -333,10 +333,10 @@ def _star(
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:
-        shown = _shown(result) if order is None else result.orders[result._place(order)]
+        chosen = _shown(result) if order is None else result.orders[result._place(order)]
         ax = axes_or_new(ax)
-        handles = _vectors(ax, result, shown, style)
-        what = joined(f"order {shown}", _finding(result, shown), loads_of(result))
+        handles = _vectors(ax, result, chosen, style)
+        what = joined(f"order {chosen}", _finding(result, chosen), loads_of(result))
         set_title(ax, labels.name_of(result.engine), what)
         add_legend(ax, handles=handles)
         return ax

@@ -206,18 +206,18 @@ def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels
 
 def share_scale(panels: Panels) -> None:
     """Give all panels one scale; its numbers stand beside the outer ones."""
-    shown = [panel for panel in panels.axes.flat if panel.get_visible()]
-    ends = np.array([panel.dataLim.get_points() for panel in shown])
+    visible = [panel for panel in panels.axes.flat if panel.get_visible()]
+    ends = np.array([panel.dataLim.get_points() for panel in visible])
     limits = np.stack([ends.min(axis=(0, 1)), ends.max(axis=(0, 1))], axis=-1)
     spans = limits[:, 1] - limits[:, 0]
     # Panels of long and narrow curves have room for the angles at them.
     lacking = np.maximum(0.0, NARROWEST * spans[::-1] - spans)
     limits += 0.5 * np.stack([-lacking, lacking], axis=-1)
     columns = panels.axes.shape[1]
-    for place, panel in enumerate(shown):
+    for place, panel in enumerate(visible):
         panel.set(xlim=limits[0], ylim=limits[1])
         panel.set_aspect("equal", adjustable="box")
-        lowest = place + columns >= len(shown)
+        lowest = place + columns >= len(visible)
         panel.tick_params(labelleft=place % columns == 0, labelbottom=lowest)
 
 

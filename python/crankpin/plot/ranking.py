@@ -172,9 +172,9 @@ def _designs(
     return ax
 
 
-def _title(designs: Designs, shown: int) -> str:
+def _title(designs: Designs, count: int) -> str:
     question = designs.question
-    counted = f"{shown} of {designs.optima}" if shown < designs.optima else f"{shown}"
+    counted = f"{count} of {designs.optima}" if count < designs.optima else f"{count}"
     noun = "design" if designs.optima == 1 else "designs"
     return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} {noun}"
 
@@ -198,8 +198,8 @@ def _over_bank_angle(
     """
     question = designs.question
     low, high = bank_angle_range(designs)
-    own = [float(design.bank_angle_deg or 0.0) for design in best]
-    angles = np.union1d(np.linspace(low, high, POINTS), own)
+    bank_angles = [float(design.bank_angle_deg or 0.0) for design in best]
+    angles = np.union1d(np.linspace(low, high, POINTS), bank_angles)
     heights = designs.over_bank_angle(angles, len(best))
     # Several designs may be dips of one curve.
     cranks = [turned(question, design.crank, low) for design in best]
@@ -224,9 +224,9 @@ def _over_bank_angle(
             thin = look | {"linestyle": ":", "linewidth": 0.8}
             ax.plot(angles, heights[k], gid="", label=once(ax, FORBIDDEN), **thin)
     for k, design in enumerate(best):
-        place = np.array([own[k]]), np.array([design.value])
+        place = np.array([bank_angles[k]]), np.array([design.value])
         ring(ax, *place, looks[firsts[k]]["color"], "o", DESIGN)
-    write_at_mark(ax, own[0], best[0].value, _angle(own[0]))
+    write_at_mark(ax, bank_angles[0], best[0].value, _angle(bank_angles[0]))
 
 
 # --- searches -----------------------------------------------------------------------------------

@@ -171,14 +171,14 @@ def shaft_text(name: str, ratio: float) -> str:
 
 def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:
     """Draw a round length, about as long as the stroke, below the drawing on the left."""
-    shown = units.convert("m")
-    stroke = 2.0 * crank_radius(engine) * shown.factor
+    converted = units.convert("m")
+    stroke = 2.0 * crank_radius(engine) * converted.factor
     decade = 10.0 ** np.floor(np.log10(stroke))
     length = max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= stroke)
     left, (low, high) = ax.get_xlim()[0], ax.get_ylim()
     low -= 0.16 * (high - low)  # below the numbers of hanging cylinders
     ax.set_ylim(low, high)
-    right = left + length / shown.factor
+    right = left + length / converted.factor
     ax.plot([left, right], [low, low], color=ink.line, linewidth=1.5, linestyle="-")
     middle = complex(0.5 * (left + right), low)
-    write(ax, f"{number(length)} {shown.unit}", middle, -3.0j, va="top", fontsize="x-small")
+    write(ax, f"{number(length)} {converted.unit}", middle, -3.0j, va="top", fontsize="x-small")

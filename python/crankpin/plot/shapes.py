@@ -223,5 +223,5 @@ def arrow_round(
 
 def _amount(unbalance: float) -> str:
     """Write an unbalance, kg·m."""
-    shown = units.convert("kg·m")
-    return f"{rounded(unbalance * shown.factor)} {shown.unit}"
+    converted = units.convert("kg·m")
+    return f"{rounded(unbalance * converted.factor)} {converted.unit}"

@@ -164,8 +164,8 @@ def magnitude_scale(
 class ScaledLocator(Locator):
     """Ticks where numbers in another unit are round."""
 
-    def __init__(self, own: Locator, factor: float) -> None:
-        self.own, self.factor = own, factor
+    def __init__(self, locator: Locator, factor: float) -> None:
+        self.own, self.factor = locator, factor
 
     def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
         """Set the axis, of the locator for the other unit too."""
@@ -179,15 +179,15 @@ class ScaledLocator(Locator):
 
     def tick_values(self, vmin: float, vmax: float) -> Sequence[float]:
         """Return the places of the ticks between two values."""
-        found = self.own.tick_values(vmin * self.factor, vmax * self.factor)
-        return [float(place) / self.factor for place in found]
+        ticks = self.own.tick_values(vmin * self.factor, vmax * self.factor)
+        return [float(place) / self.factor for place in ticks]
 
 
 class ScaledFormatter(Formatter):
     """Numbers of ticks in another unit."""
 
-    def __init__(self, own: Formatter, factor: float) -> None:
-        self.own, self.factor = own, factor
+    def __init__(self, formatter: Formatter, factor: float) -> None:
+        self.own, self.factor = formatter, factor
 
     def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
         """Set the axis, of the formatter for the other unit too."""

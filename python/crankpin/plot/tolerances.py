@@ -106,8 +106,10 @@ def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _of_patches(look: dict[str, Any]) -> dict[str, Any]:
-    kept = {key: look[key] for key in ("linestyle", "linewidth", "alpha", "zorder") if key in look}
-    return {"edgecolor": look["color"], "fill": False} | kept
+    of_line = {
+        key: look[key] for key in ("linestyle", "linewidth", "alpha", "zorder") if key in look
+    }
+    return {"edgecolor": look["color"], "fill": False} | of_line
 
 
 def _ecdf(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: str) -> None:

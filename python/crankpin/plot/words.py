@@ -145,6 +145,6 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
     bound = result.error_bound[quantity]
-    shown = units.convert(QUANTITIES[quantity].unit)
-    rest = f"{rounded(bound * shown.factor, 2)} {shown.unit}"
+    converted = units.convert(QUANTITIES[quantity].unit)
+    rest = f"{rounded(bound * converted.factor, 2)} {converted.unit}"
     return f"{text} (the rest ≤ {rest})" if bound else text

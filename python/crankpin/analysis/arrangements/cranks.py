@@ -105,8 +105,8 @@ class Crank:
         """Pin splits as text: one if all are equal; empty for shared pins."""
         if not any(self.splits):
             return ""
-        listed = [f"{float(split):.6g}" for split in self.splits]
-        return listed[0] if len(set(listed)) == 1 else ", ".join(listed)
+        texts = [f"{float(split):.6g}" for split in self.splits]
+        return texts[0] if len(set(texts)) == 1 else ", ".join(texts)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -68,9 +68,9 @@ class Arrangement(Item, Record):
         }
         for name, values in lists.items():
             # Searches make thousands, of tuples of floats.
-            kept = type(values) is tuple and all(type(value) is float for value in values)
-            listed = values if kept else tuple(inputs.listed_numbers(name, values))
-            object.__setattr__(self, name, listed)
+            is_plain = type(values) is tuple and all(type(value) is float for value in values)
+            floats = values if is_plain else tuple(inputs.listed_numbers(name, values))
+            object.__setattr__(self, name, floats)
         inputs.one_of("hold", hold, ("firing", "pins"))
         object.__setattr__(self, "hold", hold)
 
@@ -439,6 +439,6 @@ def _bank_angle(name: str, value: object) -> float:
 
 
 _MEASURES: dict[str, Callable[[Arrangement], float]] = {
-    "second_order": lambda found: max(found.second_order),
-    "counterweight": lambda found: found.counterweight,
+    "second_order": lambda arrangement: max(arrangement.second_order),
+    "counterweight": lambda arrangement: arrangement.counterweight,
 }

@@ -187,13 +187,13 @@ def _shaft_requests(
     ratios: object, *, x: object, y: object, planes: object, bearings: object, remove: object
 ) -> list[ShaftRequest]:
     """Return the shafts to be fitted; :func:`crankpin.balance_shafts` documents the arguments."""
-    listed = _ratios(ratios)
-    count = len(listed)
-    removals = _removals(remove, listed)
+    shaft_ratios = _ratios(ratios)
+    count = len(shaft_ratios)
+    removals = _removals(remove, shaft_ratios)
     requests = list(
         map(
             ShaftRequest,
-            listed,
+            shaft_ratios,
             _coordinates("x", x, count),
             _coordinates("y", y, count),
             _places("planes", planes, count),
@@ -211,8 +211,8 @@ def _shaft_requests(
 def _ratios(ratios: object) -> list[Order]:
     hint = 'give multiples of 1/2 other than 0, such as -1, "1/2" or [2, -2]'
     several = isinstance(ratios, Iterable) and not isinstance(ratios, str)
-    listed = inputs.items("ratios", ratios, hint) if several else [ratios]
-    numbers = [inputs.speed_ratio("ratios", value) for value in listed]
+    entries = inputs.items("ratios", ratios, hint) if several else [ratios]
+    numbers = [inputs.speed_ratio("ratios", value) for value in entries]
     if not 1 <= len(numbers) <= MOST_SHAFTS:
         raise inputs.faulty("ratios", f"has {len(numbers)} shafts", f"give 1 to {MOST_SHAFTS}")
     for number in numbers:
@@ -223,9 +223,9 @@ def _ratios(ratios: object) -> list[Order]:
 
 def _removals(remove: object, ratios: list[Order]) -> list[Remove]:
     alike = isinstance(remove, str) or not isinstance(remove, Iterable)
-    listed = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
+    words = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
     removals: dict[Order, Remove] = {}
-    for ratio, value in zip(ratios, listed, strict=True):
+    for ratio, value in zip(ratios, words, strict=True):
         word = cast("Remove", inputs.one_of("remove", value, REMOVE))
         if removals.setdefault(ratio, word) != word:
             hint = "shafts of one ratio share their task; give them the same"
@@ -234,28 +234,28 @@ def _removals(remove: object, ratios: list[Order]) -> list[Remove]:
 
 
 def _each(name: str, values: object, count: int) -> list[Any]:
-    listed = inputs.items(name, values, f"give one for each of {count} shafts")
-    if len(listed) != count:
+    entries = inputs.items(name, values, f"give one for each of {count} shafts")
+    if len(entries) != count:
         raise inputs.faulty(
-            name, f"has {len(listed)} entries", f"give one for each of {count} shafts"
+            name, f"has {len(entries)} entries", f"give one for each of {count} shafts"
         )
-    return listed
+    return entries
 
 
 def _coordinates(name: str, values: object, count: int) -> list[float | None]:
-    listed = _each(name, values, count) if isinstance(values, Iterable) else [values] * count
-    return [None if value is None else inputs.finite(name, value) for value in listed]
+    numbers = _each(name, values, count) if isinstance(values, Iterable) else [values] * count
+    return [None if value is None else inputs.finite(name, value) for value in numbers]
 
 
 def _places(name: str, values: object, count: int) -> list[tuple[float, ...] | None]:
     if values is None:
         return [None] * count
     hint = "give places along the crank, m, such as [0.0, 0.3], or a list of these"
-    listed = inputs.items(name, values, hint)
-    if any(value is None or isinstance(value, Iterable) for value in listed):
-        each_has = _each(name, listed, count)
+    entries = inputs.items(name, values, hint)
+    if any(value is None or isinstance(value, Iterable) for value in entries):
+        each_has = _each(name, entries, count)
     else:
-        each_has = [listed] * count
+        each_has = [entries] * count
     intervals: list[tuple[float, ...] | None] = []
     for k, place in enumerate(each_has):
         if place is None:

@@ -215,8 +215,8 @@ def _counterweights(engine: Engine, planes: Mapping[str, Place]) -> tuple[Unbala
     # As of shafts, a moment counts as much as a force over half the distance of the cylinders.
     length = float(np.ptp(engine.z)) / 2.0 or None
     fit = Fit("external", (("force", None), ("moment", None)), "squares", length)
-    found = fitted(engine, planes, dict.fromkeys(planes, math.inf), None, fit)
-    return tuple(weight for _, weight in found.unbalances)
+    fit_of_planes = fitted(engine, planes, dict.fromkeys(planes, math.inf), None, fit)
+    return tuple(weight for _, weight in fit_of_planes.unbalances)
 
 
 def balancer_sets(
@@ -233,16 +233,16 @@ def balancer_sets(
     """
     removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
     by_shafts = [1]
-    for listed in removals.values():
-        one_more = [0, *(len(listed) * number for number in by_shafts)]
+    for alternatives in removals.values():
+        one_more = [0, *(len(alternatives) * number for number in by_shafts)]
         by_shafts = list(map(sum, itertools.zip_longest(by_shafts, one_more, fillvalue=0)))
     count = sum(by_shafts[: most_shafts + 1])
     if count > MOST_SETS:
         hint = f"give fewer orders or most_shafts, for {MOST_SETS} at most"
         raise inputs.faulty("shaft_orders", f"make {count} sets of shafts", hint)
     choices: list[list[Part | None]] = [[None] for _ in removals]
-    for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
-        for what in listed:
+    for parts, (ratio, alternatives) in zip(choices, removals.items(), strict=True):
+        for what in alternatives:
             with suppressed():  # of sets that are compared
                 fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, rpm=rpm)
             parts.append(Part(fit[0], what))

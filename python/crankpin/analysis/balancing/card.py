@@ -89,7 +89,7 @@ def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
     if not isinstance(parts, Mapping):
         hint = f"give a mapping of parts to kilograms: {', '.join(PARTS)}"
         raise inputs.rejected("parts", parts, hint)
-    found = {}
+    by_kind = {}
     for name, mass in parts.items():
         part = inputs.one_of("parts", str(name).replace("_", " "), PARTS)
         masses = np.array(inputs.per_item(f"parts[{name!r}]", mass, len(engine)))
@@ -98,8 +98,8 @@ def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
             raise inputs.faulty(f"parts[{name!r}]", f"has {len(masses)} masses", hint)
         if not ((masses >= 0.0) & (masses <= 1e6)).all():
             raise inputs.rejected(f"parts[{name!r}]", mass, "give kilograms, 0 or more")
-        found[part] = masses
-    return {part: found[part] for part in PARTS if part in found}
+        by_kind[part] = masses
+    return {part: by_kind[part] for part in PARTS if part in by_kind}
 
 
 def from_rods(
@@ -144,8 +144,8 @@ def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engi
     if RECIPROCATING in rounded:
         pairs = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
         moving = [one.replace(reciprocating_mass=mass) for one, mass in pairs]
-        kept = rounded.get(ROTATING, engine.rotating_mass.tolist())
-        return engine.replace(cylinder=moving, rotating_mass=kept)
+        rotating = rounded.get(ROTATING, engine.rotating_mass.tolist())
+        return engine.replace(cylinder=moving, rotating_mass=rotating)
     return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
 
 

@@ -238,11 +238,11 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column("force", abs(self.exerted_force), "kg·m"),
             Column("moment", abs(self.exerted_moment), "kg·m²"),
         ]
-        known = [pair for pair in self.bearings if pair is not None]
-        if len(known) == len(self):
+        supported = [pair for pair in self.bearings if pair is not None]
+        if len(supported) == len(self):
             front, rear = abs(self.bearing_loads(labels.UNIT_RPM)).T.tolist()
             columns += [
-                Column("bearings apart", tuple(b - a for a, b in known), "m"),
+                Column("bearings apart", tuple(b - a for a, b in supported), "m"),
                 Column("front load", tuple(front), "kg·m"),
                 Column("rear load", tuple(rear), "kg·m"),
             ]

@@ -264,11 +264,11 @@ class Search:
         several = [family for family in self._families if len(family.variables) > 1]
         symmetries = self._question.symmetries
         results = [optima.Optimum(family.base, isolated=True, values=()) for family in fixed]
-        with progress_bar.shown(progress, "designs") as shown:
+        with progress_bar.shown(progress, "designs") as bar:
 
             def report(done: int, total: int) -> None:
-                if shown is not None:
-                    shown(done, total)
+                if bar is not None:
+                    bar(done, total)
 
             if single:
                 results += optima.of_one_angle(single, self._merit, symmetries, count, report)

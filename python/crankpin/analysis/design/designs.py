@@ -156,7 +156,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, the speed and the balancers in words."""
-        least = self._minimised(objectives, given=self.orders is not None)
+        least = self._minimised(objectives, with_orders=self.orders is not None)
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
 
     def _balancers(self) -> list[str]:

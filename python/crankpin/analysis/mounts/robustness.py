@@ -61,8 +61,10 @@ class MountRobustness(Tabled):
     _factors: Any = computed()
 
     def __post_init__(self) -> None:
-        given = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
-        nominal, ends, slope, factors = self.powertrain._core.robustness(given, self.at_frequency)
+        tolerances = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
+        nominal, ends, slope, factors = self.powertrain._core.robustness(
+            tolerances, self.at_frequency
+        )
         frequency, purity, least = map(read_only, nominal)
         self.__dict__.update(
             frequency=frequency, purity=purity, least_purity=least, cg_slope=slope, _ends=ends,

@@ -109,10 +109,10 @@ class ByObjectives:
             "torque" in objective.quantity or objective.of_function for objective in self.objectives
         )
 
-    def _minimised(self, count: int | None, *, given: bool) -> str:
+    def _minimised(self, count: int | None, *, with_orders: bool) -> str:
         """Return the objectives, all or the first few, in words; with the orders as given."""
         words = ", then ".join(objective.words for objective in self.objectives[:count])
-        return words.replace("all orders", "all of the orders given") if given else words
+        return words.replace("all orders", "all of the orders given") if with_orders else words
 
 
 def tie_tolerance(tie_rtol: object) -> float:

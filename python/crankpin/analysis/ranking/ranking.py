@@ -106,9 +106,9 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
         Of shape (n_engines,).
         """
-        own = own_angles(self.engines)
-        own.setflags(write=False)
-        return own
+        bank_angles = own_angles(self.engines)
+        bank_angles.setflags(write=False)
+        return bank_angles
 
     @property
     def values(self) -> NDArray[np.float64]:
@@ -136,7 +136,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
-        least = self._minimised(objectives, given=self.sweep._request.orders is not None)
+        least = self._minimised(objectives, with_orders=self.sweep._request.orders is not None)
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
     @property
@@ -166,9 +166,9 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
 def _several(angles: tuple[float, ...]) -> str:
     """Return a few angles as text."""
-    shown = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
+    text = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
     rest = len(angles) - MOST_ANGLES
-    return f"{shown} and {rest} more" if rest > 0 else shown or "–"
+    return f"{text} and {rest} more" if rest > 0 else text or "–"
 
 
 # --- the best of a sweep --------------------------------------------------------------------------
@@ -200,13 +200,13 @@ def chosen(
                 part = _part(swept, engine, between)
                 more = [objective.values(part)[0] for objective in objectives]
                 rows, angles = np.vstack([rows, np.transpose(more)]), np.append(grid, between)
-        kept = _least(rows, tolerances)
-        best = tuple(map(float, rows[kept].min(axis=0))) if kept.size else (np.inf,) * len(values)
+        least = _least(rows, tolerances)
+        best = tuple(map(float, rows[least].min(axis=0))) if least.size else (np.inf,) * len(values)
         if angles is None:
-            own = own_angles([engine])
-            where = tuple(own.tolist()) if kept.size and np.isfinite(own[0]) else ()
+            of_engine = own_angles([engine])
+            where = tuple(of_engine.tolist()) if least.size and np.isfinite(of_engine[0]) else ()
         else:
-            where = tuple(sorted(set(angles[kept].tolist())))
+            where = tuple(sorted(set(angles[least].tolist())))
             if where and swept.hold is not None:
                 engine = engine.with_bank_angle(where[0], hold=swept.hold)  # noqa: PLW2901
         choices.append(Choice(0, str(names[k]), engine, where, best))
@@ -220,11 +220,11 @@ def chosen(
 
 def _least(rows: NDArray[np.float64], tolerances: NDArray[np.float64]) -> NDArray[np.intp]:
     """Return the rows lowest in the first column, of those the lowest in the second, and so on."""
-    kept = np.flatnonzero(np.isfinite(rows).all(axis=1))
+    finite = np.flatnonzero(np.isfinite(rows).all(axis=1))
     for column, tolerance in zip(rows.T, tolerances, strict=True):
-        if kept.size:
-            kept = kept[column[kept] <= column[kept].min() + tolerance]
-    return kept
+        if finite.size:
+            finite = finite[column[finite] <= column[finite].min() + tolerance]
+    return finite
 
 
 def groups(
@@ -311,9 +311,9 @@ def dips(
     heights = at(rounded)
     as_good = heights <= heights[:, -1:] + FLAT * np.abs(values[lowest_given])[:, None]
     rows, chosen = np.arange(lowest_given.size), as_good.argmax(axis=1)
-    found, depths = rounded[rows, chosen], heights[rows, chosen]
-    found = np.sort(found[depths < values[lowest_given] - tolerance])
-    return found[np.append(True, np.diff(found) > SAME)] if found.size else found
+    minima, depths = rounded[rows, chosen], heights[rows, chosen]
+    minima = np.sort(minima[depths < values[lowest_given] - tolerance])
+    return minima[np.append(True, np.diff(minima) > SAME)] if minima.size else minima
 
 
 def _lowest(values: NDArray[np.float64], tolerance: float) -> Iterator[int]:

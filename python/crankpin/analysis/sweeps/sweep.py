@@ -145,8 +145,8 @@ def sweep(
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], rtol=1e-3, torque=False).orders
     (1, 2, 4, 6)
     """
-    shown = progress_bar.checked(progress)
-    listed, names = _listed(engines)
+    bar = progress_bar.checked(progress)
+    engine_list, names = _listed(engines)
     arguments = {
         "bank_angle_deg": bank_angle_deg,
         "rod_ratio": rod_ratio,
@@ -168,8 +168,8 @@ def sweep(
     if cycle is None and crankcase is not None:
         hint = "applies to a cycle map; engine.with_cycle(…, crankcase=…) has that of an engine"
         raise inputs.rejected("crankcase", crankcase, hint)
-    maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
-    whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
+    maps = None if cycle is None else GasMap.checked(cycle, engine_list, crankcase)
+    whole = Sweep(tuple(engine_list), names, axes, held, request, maps, bar)
     inputs.warn_of_units(whole.mean_piston_speed)
     # The last value alone shows radians: a sweep in degrees passes parts of a turn in radians.
     angles = axes.get("bank_angle_deg")

@@ -158,8 +158,10 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         if orders == self._request.orders:
             hint = "moments of samples are; give the tolerances of engine.replace(reference_z=…)"
             raise inputs.faulty("point", "is not in the engine's plane", hint)
-        known = labels.orders_text(self.orders)
-        raise inputs.rejected("orders", orders, f"is not among those of the samples ({known})")
+        orders_text = labels.orders_text(self.orders)
+        raise inputs.rejected(
+            "orders", orders, f"is not among those of the samples ({orders_text})"
+        )
 
     @property
     def spreads(self) -> Mapping[str, tuple[float, ...]]:
