@@ -35,7 +35,7 @@ ROWS = 2**12
 """Rows that are written at once."""
 FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
 """Beginning of a text that a spreadsheet takes for a formula."""
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
+PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 
 
 class Frames(Mapping[str, "Table"]):
@@ -358,7 +358,7 @@ def _inert(value: object) -> object:
     if not isinstance(value, str):
         return value
     text = without_controls(value)
-    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
+    return f"'{text}" if FORMULA.match(text) and not PLAIN_NUMBER.fullmatch(text) else text
 
 
 def _written(text: str | Iterable[str], path: str | Path | None, ending: str) -> str | None:

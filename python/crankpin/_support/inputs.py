@@ -40,7 +40,7 @@ MOST_NUMBERS = _core.LONGEST_AXIS
 LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
 
-PIECE = 2**16
+PIECE_NUMBERS = 2**16
 """Numbers converted or copied between checks for Ctrl-C."""
 
 SINGLES = (np.float16, np.float32)
@@ -135,9 +135,9 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
-    if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE:
+    if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE_NUMBERS:
         return _piece(values)
-    pieces = [_piece(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
+    pieces = [_piece(values[k : k + PIECE_NUMBERS]) for k in range(0, len(values), PIECE_NUMBERS)]
     if len({piece.shape[1:] for piece in pieces}) > 1:
         raise ValueError("lists of different lengths")
     # Not by concatenate, which Ctrl-C does not interrupt.
@@ -145,7 +145,7 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
         (len(values), *pieces[0].shape[1:]), np.result_type(*{piece.dtype for piece in pieces})
     )
     for k, piece in enumerate(pieces):
-        joined[k * PIECE : (k + 1) * PIECE] = piece
+        joined[k * PIECE_NUMBERS : (k + 1) * PIECE_NUMBERS] = piece
     return joined
 
 
@@ -158,10 +158,10 @@ def _piece(values: ArrayLike) -> NDArray[Any]:
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:
     """Return a copy in doubles; a single is read as the shortest decimal of its own precision."""
     single = values.dtype in SINGLES
-    if values.size <= PIECE:
+    if values.size <= PIECE_NUMBERS:
         return np.array(values.astype(str) if single else values, dtype=np.float64)
     copy = np.empty(values.shape)
-    rows = max(1, PIECE * len(values) // values.size)
+    rows = max(1, PIECE_NUMBERS * len(values) // values.size)
     for k in range(0, len(values), rows):
         piece = values[k : k + rows]
         copy[k : k + rows] = piece.astype(str) if single else piece
@@ -483,13 +483,13 @@ def firing_order(
         return "-".join(shorten(number) for number in entries)
     typed = text(name, values, hint)
     plain = typed.strip()
-    if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
+    if len(plain) <= len(SINGLE_DIGITS) and sorted(plain) == list(SINGLE_DIGITS[: len(plain)]):
         return "-".join(plain)
     by_banks = banks and _LETTERS.search(plain)
     return _by_banks(name, typed, banks, dummies) if by_banks else typed
 
 
-DIGITS = "123456789"
+SINGLE_DIGITS = "123456789"
 """Numbers of cylinders that are written without signs between them."""
 _LETTERS = re.compile(
     r"(?:(?P<before>[A-Za-z])(?P<number>\d+)|(?P<turned>\d+)(?P<after>[A-Za-z]))\b"

@@ -170,8 +170,10 @@ EXCITATIONS = {
 }  # fmt: skip
 """Name of a quantity of a torsional excitation → its entry."""
 
-POINTS = {name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()}
-POINTS |= {
+OF_POINTS = {
+    name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()
+}
+OF_POINTS |= {
     "irregularity": Kind("irregularity", "irregularity", ("δ",), ("of the speed",), "", real=True),
     "swing_deg": Kind("swing_deg", "swing", ("swing",), ("of the crank",), "°", real=True),
 }

@@ -24,7 +24,7 @@ ENERGIES = {
 }  # fmt: skip
 """Unit of torque → that of energy beside it, where they have different names."""
 _symbols, _aliases = _core.unit_symbols()
-KINDS = tuple(
+UNITS_BY_KIND = tuple(
     {
         name: Decimal(number).scaleb(power) / below
         for name, of, (number, power, below) in _symbols
@@ -33,12 +33,14 @@ KINDS = tuple(
     for kind in range(4)
 )
 """Units of mass, length, force and pressure → kg, m, N and Pa."""
-MASSES, LENGTHS, FORCES, PRESSURES = KINDS
-SYMBOLS = {name: (kind, factor) for kind, of in enumerate(KINDS) for name, factor in of.items()}
-"""Unit → its kind, a place in :data:`KINDS`, and its factor to SI."""
+MASSES, LENGTHS, FORCES, PRESSURES = UNITS_BY_KIND
+SYMBOLS = {
+    name: (kind, factor) for kind, of in enumerate(UNITS_BY_KIND) for name, factor in of.items()
+}
+"""Unit → its kind, a place in :data:`UNITS_BY_KIND`, and its factor to SI."""
 ALIASES = dict(_aliases)
 """Spelling of a unit → the unit."""
-HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
+UNITS_HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
 LEAST_DIGITS = 3
 """Significant digits of a converted number in a text, at least."""
 
@@ -137,13 +139,15 @@ _settings: ContextVar[tuple[tuple[Shown, bool], ...]] = ContextVar("settings", d
 def read(text: object, name: str = "units") -> Setting:
     """Return the units that a text names."""
     setting: Setting = {}
-    for word in filter(None, (part.strip() for part in inputs.text(name, text, HINT).split(","))):
+    for word in filter(
+        None, (part.strip() for part in inputs.text(name, text, UNITS_HINT).split(","))
+    ):
         unit = symbol(word) or word.replace("*", "·")
         try:
             dimension = _dimension(_terms(unit))
         except KeyError:
             meant = inputs.nearest(word, [*SYMBOLS, *ALIASES])
-            raise inputs.rejected(name, text, f"{HINT}{meant}") from None
+            raise inputs.rejected(name, text, f"{UNITS_HINT}{meant}") from None
         if dimension in setting:
             raise inputs.rejected(name, text, f"{setting[dimension]} and {unit} are of one kind")
         setting[dimension] = _text(_terms(unit))
@@ -307,7 +311,7 @@ def _terms(unit: str) -> Terms:
 
 def _dimension(terms: Terms) -> Dimension:
     """Return the exponents of mass, length, force, pressure; of others the name is one."""
-    exponents = [0] * len(KINDS)
+    exponents = [0] * len(UNITS_BY_KIND)
     others: list[int] = []
     for name, n in terms:
         if name in SYMBOLS:

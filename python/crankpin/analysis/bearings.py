@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft
 
-AXES = ("engine", "crank", "rod")
+REFERENCE_AXES = ("engine", "crank", "rod")
 """Axes in which vectors are given: fixed in the engine, or turning with crank or rod."""
 LARGEST_BEARING = 10.0
 """Width or diameter of a bearing, in crank radii, above which it is not in metres: pins have 1."""
-PARTS = ("crank", "crankcase")
+CUT_PARTS = ("crank", "crankcase")
 """Parts that are cut along z."""
 
 
@@ -366,7 +366,7 @@ class BearingLoads(InsideLoads, Labelled):
                [5370.,    0.]])
         """
         name = inputs.one_of("load", load, _VECTORS)
-        chosen = inputs.one_of("axes", axes, AXES)
+        chosen = inputs.one_of("axes", axes, REFERENCE_AXES)
         if chosen == "engine":
             return self.read(name)
         if (name, chosen) == ("main", "rod"):
@@ -489,7 +489,7 @@ class BearingLoads(InsideLoads, Labelled):
         index, count = inputs.whole("crank", crank, 0), len(engine_core(self.engine).cranks[0])
         if index >= count:
             raise inputs.rejected("crank", crank, f"give the index of a crank, 0 to {count - 1}")
-        cut = (inputs.one_of("part", part, PARTS), index)
+        cut = (inputs.one_of("part", part, CUT_PARTS), index)
         cache = self.__dict__.setdefault("_cut", {})
         if cut not in cache:
             cache[cut] = self._core.sections(*cut, self.theta_deg)

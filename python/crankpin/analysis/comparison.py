@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-ROUNDING = 1e-12
+NO_CHANGE = 1e-12
 """Changes below this part of a peak are those of rounding in sums of all cylinders."""
 LUMPED: Final = "lumped"
 """Stands for an engine as textbooks lump it."""
@@ -263,4 +263,4 @@ def _change(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[
     """Return the change relative to what was before: 0 where they differ by rounding alone."""
     with np.errstate(divide="ignore", invalid="ignore"):
         change = (after - before) / before
-    return np.where(np.abs(after - before) <= ROUNDING * before, 0.0, change)
+    return np.where(np.abs(after - before) <= NO_CHANGE * before, 0.0, change)

@@ -28,9 +28,9 @@ INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i6")
 """Inline engines with a measurable shaking force: that of an inline-5 is order 10, some mN."""
 FIRING = ("i3", "i4", "i5", "i6", "v6-60", "v6-90-odd-fire", "v8-crossplane", "v12-60", "v-twin-45")
 SECOND = "With λ = r / l the second harmonic is a₂ ≈ λ + λ³/4."
-WIDTH = 88
+TEXT_WIDTH = 88
 """Width of a question in text, characters."""
-NEAR = 0.01
+RIGHT_WITHIN = 0.01
 """Answers within one per cent are right: slide rules and three digits are welcome."""
 
 
@@ -182,13 +182,16 @@ class Exercise(Tabled):
             raise inputs.faulty("answers", "are left out", hint)
         return {
             inputs.one_of("answers", name, right): math.isclose(
-                inputs.finite(name, value), right[name], rel_tol=NEAR, abs_tol=NEAR * NEAR
+                inputs.finite(name, value),
+                right[name],
+                rel_tol=RIGHT_WITHIN,
+                abs_tol=RIGHT_WITHIN * RIGHT_WITHIN,
             )
             for name, value in answers.items()
         }
 
     def __str__(self) -> str:
-        return "\n".join((self._head, textwrap.fill(self.question, WIDTH), self._asks))
+        return "\n".join((self._head, textwrap.fill(self.question, TEXT_WIDTH), self._asks))
 
     __repr__ = __str__
 

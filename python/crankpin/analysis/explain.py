@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
-UNITS = ("m", "mm", *(
+SENTENCE_UNITS = ("m", "mm", *(
     unit
     for name in PLANE_VECTORS
     for unit in (QUANTITIES[name].unit, QUANTITIES[name].unit_over_square)
@@ -138,7 +138,7 @@ class Explanation(Tabled):
 
     def _said(self, explained: _core.Explanation, count: int | None = None) -> list[str]:
         """Return the sentences in the units that are set."""
-        converted = [(unit, *units.convert(unit)) for unit in UNITS]
+        converted = [(unit, *units.convert(unit)) for unit in SENTENCE_UNITS]
         changed = [(unit, to, factor) for unit, to, factor in converted if to != unit]
         return explained.sentences(self.engine.loads_counted, changed, count)
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 SMALLER = "sweep one axis in parts, or use to_dask"
 """Hint for results too large for memory."""
-AXES = ("axis", "component")
+COMPONENT_DIMS = ("axis", "component")
 """Dimensions of the components of a vector or a load, the last ones."""
 VALUES = "values"
 """Name of the array itself: phasors of results by order, else values."""
@@ -146,7 +146,7 @@ def variable(quantity: str, what: str = VALUES) -> str:
 def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Return the coordinates of some quantities: those of all first, axes last."""
     by_name = {name: values for quantity in quantities for name, values in quantity.coords.items()}
-    return {name: by_name[name] for name in sorted(by_name, key=AXES.count)}
+    return {name: by_name[name] for name in sorted(by_name, key=COMPONENT_DIMS.count)}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
@@ -200,8 +200,12 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
 
 def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:
     """Return values of each quantity and component, below each other."""
-    lengths = [tuple(d for d in quantity.dims if d not in AXES) for quantity in quantities]
-    coords = {name: values for name, values in union(quantities).items() if name not in AXES}
+    lengths = [
+        tuple(d for d in quantity.dims if d not in COMPONENT_DIMS) for quantity in quantities
+    ]
+    coords = {
+        name: values for name, values in union(quantities).items() if name not in COMPONENT_DIMS
+    }
     parts = [
         (quantity, dims, component, figures)
         for quantity, dims in zip(quantities, lengths, strict=True)

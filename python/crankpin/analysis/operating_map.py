@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import LOADS, POINTS
+from crankpin._support.quantities import LOADS, OF_POINTS
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -154,7 +154,7 @@ class OperatingMap(InsideLoads, Labelled):
     gas: str
     """Gas pressure that counts, in words."""
 
-    _registry: ClassVar[Mapping[str, Kind]] = POINTS
+    _registry: ClassVar[Mapping[str, Kind]] = OF_POINTS
 
     def __post_init__(self) -> None:
         engine_core(self.engine)

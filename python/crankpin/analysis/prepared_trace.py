@@ -470,7 +470,7 @@ def _convolved(
 
 def _parts(length: int, count: int) -> Iterator[slice]:
     """Yield slices of columns of ``count`` rows, of at most :data:`PIECE` numbers."""
-    step = max(1, inputs.PIECE // count)
+    step = max(1, inputs.PIECE_NUMBERS // count)
     return (slice(start, start + step) for start in range(0, length, step))
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order, Orders
     from crankpin.model.engine import Engine
 
-HIGHEST = 12
+HIGHEST_DRAWN = 12
 """Highest order of a diagram whose orders are not given."""
 
 
@@ -194,7 +194,9 @@ def star_diagram(
     firing = fires.firing(engine, firing_order, strokes)
     step = 2 if firing.strokes == 2 else 1
     if orders is None:
-        whole_cycle = [inputs.order(0.5 * halves) for halves in range(step, 2 * HIGHEST + 1, step)]
+        whole_cycle = [
+            inputs.order(0.5 * halves) for halves in range(step, 2 * HIGHEST_DRAWN + 1, step)
+        ]
     else:
         whole_cycle = inputs.explicit_half_orders(orders)
     for order in whole_cycle:

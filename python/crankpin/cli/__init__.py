@@ -23,7 +23,17 @@ if TYPE_CHECKING:
 
     from crankpin.cli.options import Commands
 
-FIRST = ("presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star")
+FIRST_COMMANDS = (
+    "presets",
+    "new",
+    "balance",
+    "explain",
+    "compare",
+    "sweep",
+    "rank",
+    "firing",
+    "star",
+)
 """Commands that the help lists before the others."""
 _NAMED = re.compile(r'^@command\(\s*"([\w-]+)"', re.MULTILINE)
 
@@ -44,7 +54,7 @@ def _homes() -> dict[str, str]:
         else:
             names = _NAMED.findall(source)
         homes |= dict.fromkeys(names, module)
-    return {name: homes[name] for name in (*FIRST, *homes)}
+    return {name: homes[name] for name in (*FIRST_COMMANDS, *homes)}
 
 
 ORDER = _homes()
@@ -106,7 +116,7 @@ class _Warnings:
         self._arguments, self._of_units = arguments, False
 
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
-        of_units = checks.UNITS in str(message)
+        of_units = checks.UNITS_ASSUMED in str(message)
         if not (of_units and self._of_units):
             options, typed = self._arguments.options, vars(self._arguments)
             outputs.say(f"warning: {warning_in_options(str(message), options, typed)}")

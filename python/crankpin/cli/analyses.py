@@ -20,7 +20,7 @@ from crankpin.model.cylinder import slider_crank_harmonics
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-HIGHEST = 12
+HIGHEST_PRINTED = 12
 """Highest order of the harmonics that are printed without ``--orders``."""
 
 
@@ -137,7 +137,9 @@ def _exercise(call: Given) -> str:
 def _harmonics(call: Given) -> Shown:
     offset = call.optional("--pin-offset", "m")
     ratio, radius = _ratio(call)
-    orders: Any = [*range(1, HIGHEST + 1)] if call.text("--orders") is None else call.orders()
+    orders: Any = (
+        [*range(1, HIGHEST_PRINTED + 1)] if call.text("--orders") is None else call.orders()
+    )
     if offset is not None and radius is None:
         raise rejected("--pin-offset", call.text("--pin-offset"), "needs --stroke")
     if offset is None or radius is None:

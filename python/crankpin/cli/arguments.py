@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 1_000_000
 """Largest number of rows in a table."""
-PICTURES = (".pdf", ".png", ".svg")
+PICTURE_ENDINGS = (".pdf", ".png", ".svg")
 
 # --- units --------------------------------------------------------------------------------------
 
-UNITS: dict[str, units.Dimension] = {
+TYPED_UNITS: dict[str, units.Dimension] = {
     "kg": (1, 0, 0, 0),
     "m": (0, 1, 0, 0),
     "kg·m": (1, 1, 0, 0),
@@ -108,15 +108,15 @@ class Given:
         And whether it is a list. A decimal comma that is read as a point is said.
         """
         # Plain moments of inertia stay in kg·m²: no flywheel is weighed in g·mm².
-        has_setting = unit in UNITS and unit != "kg·m²"
+        has_setting = unit in TYPED_UNITS and unit != "kg·m²"
         plain = units.convert(unit, self._setting).unit if has_setting else ""
         values, word, is_listed, point = _core.read_numbers(
             flag, text, unit, form=form, plain=plain, what=what, infinite=infinite
         )
         if point is not None:
             self.said.append(f"{flag} {text.strip()} is read as {point}")
-        if word and unit in UNITS and (name := units.symbol(word)) is not None:
-            self.written.setdefault(UNITS[unit], name)
+        if word and unit in TYPED_UNITS and (name := units.symbol(word)) is not None:
+            self.written.setdefault(TYPED_UNITS[unit], name)
         return values, is_listed
 
     def echo(self, flag: str, unit: str) -> str:
@@ -184,7 +184,7 @@ class Given:
         """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
         typed: dict[str, Engine] = {}
         for name in names or self._typed.get("names") or [self.text("name")]:
-            if Path(name).suffix.lower() in engine_files.ENDINGS:
+            if Path(name).suffix.lower() in engine_files.ENGINE_ENDINGS:
                 typed[name] = Engine.load(name)
                 continue
             for member in presets.family(name):
@@ -340,8 +340,8 @@ class Given:
         if (text := self._typed.get("plot")) is None:
             return None
         path = Path(text)
-        if path.suffix.lower() not in PICTURES:
-            hint = f"a picture's name ends in {', '.join(PICTURES)}"
+        if path.suffix.lower() not in PICTURE_ENDINGS:
+            hint = f"a picture's name ends in {', '.join(PICTURE_ENDINGS)}"
             raise rejected("--plot", text, hint)
         return path
 

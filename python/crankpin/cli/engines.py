@@ -18,7 +18,7 @@ from crankpin.view.gallery import save_gallery
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-MOST_SHOWN = 20
+MOST_FIRING_ORDERS = 20
 """Largest number of firing orders in a table; CSV has all."""
 
 
@@ -56,7 +56,7 @@ def _firing(call: Given) -> Shown:
 
 def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     firings = engine.firing_orders(strokes=strokes)
-    first = firings if csv else firings[:MOST_SHOWN]
+    first = firings if csv else firings[:MOST_FIRING_ORDERS]
     rows_of_texts = [
         (firing.firing_order, "even" if firing.even and not csv else firing.intervals_text)
         for firing in first

@@ -12,7 +12,7 @@ from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.bearings import AXES, bearing_loads
+from crankpin.analysis.bearings import REFERENCE_AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
@@ -61,7 +61,7 @@ def _of_files(group: str, **tdc: Any) -> tuple[Option, ...]:  # noqa: ANN401 - s
 
 OF_A_FILE = _of_files("the file of --cycle")
 """Options that need a file of ``--cycle``."""
-WITHOUT = "none"
+WITHOUT_GAS = "none"
 """Value of ``--cycle`` for no gas pressure."""
 ON = {"crank": "crank_torque", "block": "torque"}
 """Body on which a torque acts → its quantity."""
@@ -126,7 +126,7 @@ def _torque(call: Given) -> Shown:
     ),
     option(
         "--axes",
-        choices=AXES,
+        choices=REFERENCE_AXES,
         default="engine",
         help="axes of a polar picture (default: %(default)s)",
     ),
@@ -152,7 +152,7 @@ def fired(call: Given, name: str) -> tuple[Engine, str]:
     if (order := call.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
     kind, _, load = (typed or "").partition(":")
-    named = typed is None or kind in EXAMPLES or typed == WITHOUT
+    named = typed is None or kind in EXAMPLES or typed == WITHOUT_GAS
     of_a_file = [option.label for option in OF_A_FILE if call.text(option.label)]
     if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
@@ -163,14 +163,14 @@ def fired(call: Given, name: str) -> tuple[Engine, str]:
             for cylinder in engine.cylinders
         ]
         return engine.replace(cylinder=cylinders, crankcase=crankcase), ""
-    if typed == WITHOUT:
+    if typed == WITHOUT_GAS:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
                 hint = "needs gas pressure; give --cycle"
                 raise rejected(flag, call.text(flag), hint)
         return engine.with_cycle(None), ""
     if not named and not Path(typed).suffix:
-        hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT}, or a text file"
+        hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT_GAS}, or a text file"
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     if named:

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from crankpin.cli.options import Option
     from crankpin.model.engine import Engine
 
-MOST_SAMPLES = 10_000_000
-FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FIGURES}
+MOST_TYPED_SAMPLES = 10_000_000
+SPREAD_FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FIGURES}
 """Figure that spreads → its option."""
 
 
@@ -101,7 +101,7 @@ def _spread(figure: str) -> Option:
     title, unit = labels.TOLERANCES[figure]
     what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
     unit = "degrees" if unit == "°" else unit
-    return option(FLAGS[figure], metavar="X", default="0", help=f"{what}, {unit}")
+    return option(SPREAD_FLAGS[figure], metavar="X", default="0", help=f"{what}, {unit}")
 
 
 @command(
@@ -123,13 +123,13 @@ def _spread(figure: str) -> Option:
 def _tolerances(call: Given) -> Shown:
     engine = call.engine("tolerances")
     options = call.keywords(tolerances)
-    if options.get("samples", 0) > MOST_SAMPLES:
-        raise rejected("--samples", call.text("--samples"), f"give {MOST_SAMPLES} at most")
+    if options.get("samples", 0) > MOST_TYPED_SAMPLES:
+        raise rejected("--samples", call.text("--samples"), f"give {MOST_TYPED_SAMPLES} at most")
     spreads: dict[str, Any] = {
-        name: call.number(flag, labels.TOLERANCES[name][1]) for name, flag in FLAGS.items()
+        name: call.number(flag, labels.TOLERANCES[name][1]) for name, flag in SPREAD_FLAGS.items()
     }
     if not any(spreads.values()):
-        first, *_ = flags = [*FLAGS.values()]
+        first, *_ = flags = [*SPREAD_FLAGS.values()]
         hint = f"no part deviates; give a spread, {', '.join(flags)}"
         raise rejected(first, call.text(first), hint)
     note = ""

@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
 """Options of what is computed without a response."""
-FILE = option(
+POWERTRAIN_FILE = option(
     "name", argument="path", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"
 )
-PICTURES = ("cuts", "map", "waterfall", "spectrum")
+PICTURE_WORDS = ("cuts", "map", "waterfall", "spectrum")
 
 
 def _powertrain(call: Given) -> Powertrain:
@@ -35,7 +35,7 @@ def _powertrain(call: Given) -> Powertrain:
 @command(
     "mounts",
     "an engine on its mounts: modes, axes, sag; with --rpm forces and motion by order",
-    FILE,
+    POWERTRAIN_FILE,
     option(
         "--rpm",
         metavar="RANGE",
@@ -73,7 +73,7 @@ def _powertrain(call: Given) -> Powertrain:
     option("--mount", metavar="NAME", help="mount of the picture (default: the sum of all)"),
     option(
         "--picture",
-        choices=PICTURES,
+        choices=PICTURE_WORDS,
         help="the largest orders over speed, a map of orders over speed, a waterfall of spectra, "
         "or one speed's spectrum (default: cuts of several speeds, spectrum of one, and without "
         "--rpm the modes)",
@@ -150,7 +150,7 @@ def _at_rest(call: Given, powertrain: Powertrain) -> Shown:
 @command(
     "mounts-fit",
     "mounts that decouple roll, place natural frequencies and lower forces, within bounds",
-    FILE,
+    POWERTRAIN_FILE,
     option(
         "--by",
         default="decoupling",

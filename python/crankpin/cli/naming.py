@@ -90,7 +90,7 @@ def warning_in_options(message: str, options: Iterable[Option], typed: Mapping[s
     if named == message and not new:  # a figure of an engine file, which has no units
         return message
     units = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
-    return named.replace(checks.UNITS, units)
+    return named.replace(checks.UNITS_ASSUMED, units)
 
 
 def _label(argument: str, options: Iterable[Option]) -> str:

@@ -182,7 +182,7 @@ def _wrapped(names: Iterable[str]) -> str:
     return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
 
 
-PARTS = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
+PARTS_HELP = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 ON_MOUNTS = "body and mounts, for crankpin mounts"
 
 
@@ -193,16 +193,19 @@ ON_MOUNTS = "body and mounts, for crankpin mounts"
     *(
         option(
             flag,
-            group=PARTS,
+            group=PARTS_HELP,
             argument="to_crankpin" if flag == "--rod-centre" else "",
             metavar="LENGTH,…",
             help=what,
         )
         for flag, what in LENGTHS.items()
     ),
-    *(option(flag, group=PARTS, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
+    *(option(flag, group=PARTS_HELP, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
     option(
-        "--dummy", group=PARTS, metavar="N,…", help="dummy pistons, which balance and do not fire"
+        "--dummy",
+        group=PARTS_HELP,
+        metavar="N,…",
+        help="dummy pistons, which balance and do not fire",
     ),
     *LAYOUT.values(),
     _of_shape(Engine.from_firing_order, "shared_pins"),

@@ -23,11 +23,11 @@ from crankpin.cli.outputs import Shown, in_short, left_out, only
 if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
 
-SWEPT = ("--bank-angle", "--rod-ratio", "--pin-offset", "--rpm")
+SWEPT_FLAGS = ("--bank-angle", "--rod-ratio", "--pin-offset", "--rpm")
 """Options of dimensions that are swept."""
 
 
-PHASES = (
+PHASES_NOTE = (
     "Order n is peak·cos(n·θ + phase), θ the crank angle: the phase is that of the phasor P in\n"
     "Re(P·exp(i·n·θ)); x is to the right, y up, seen from the flywheel.\n"
 )
@@ -56,7 +56,7 @@ def _balance(call: Given) -> Shown:
         note = HALF_ORDERS
     table = balance.table
     if call.text("--phases"):
-        table, note = _with_phases(balance), units.joined("", [PHASES, note])
+        table, note = _with_phases(balance), units.joined("", [PHASES_NOTE, note])
     if not call.text("--csv"):
         table = in_short(
             table, balance, *(n for n in balance._request.quantities if n != "crank_torque")
@@ -124,7 +124,7 @@ def _sweep(call: Given) -> Shown:
         if "bank_angle_deg" not in axes and vees:
             axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
         elif len(engines) == 1:
-            flags = ", ".join(flag for flag in SWEPT if vees or "bank" not in flag)
+            flags = ", ".join(flag for flag in SWEPT_FLAGS if vees or "bank" not in flag)
             hint = f"give one of {flags} as START:STOP:STEP or a,b,c"
             hint = f"all options have one value; {hint}"
             raise inputs.faulty("sweep", "has nothing to sweep", hint)

@@ -29,7 +29,7 @@ def _default(part: str) -> str:
     return "default: the engine's, without any part of its kind"
 
 
-FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
+PART_FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
 """Part that is weighed → its option."""
 
 
@@ -44,7 +44,7 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
             metavar="MASS,…",
             help=f"{PARTS[part]} ({_default(part)})",
         )
-        for part, flag in FLAGS.items()
+        for part, flag in PART_FLAGS.items()
     ),
     keyword(bob_weight, "oil"),
     option(
@@ -79,11 +79,11 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
 )
 def _card(call: Given) -> Shown:
     engine = call.engine("card")
-    typed = {part: call.numbers(flag, "kg") for part, flag in FLAGS.items()}
+    typed = {part: call.numbers(flag, "kg") for part, flag in PART_FLAGS.items()}
     for part, masses in typed.items():
         if masses is not None and len(masses) not in (1, len(engine)):
             hint = f"give one mass, or {len(engine)}"
-            raise rejected(FLAGS[part], call.text(FLAGS[part]), hint)
+            raise rejected(PART_FLAGS[part], call.text(PART_FLAGS[part]), hint)
     parts = {
         part: masses if len(masses) > 1 else masses[0]
         for part, masses in typed.items()

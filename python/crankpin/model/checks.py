@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
-ROUNDING = 1e-6
+EQUAL_INTERVALS = 1e-6
 """Degrees by which rounding alone does not part two firing intervals."""
 
-UNITS = "Lengths are metres here, masses kilograms"
+UNITS_ASSUMED = "Lengths are metres here, masses kilograms"
 
 LARGEST_OIL = 0.5
 """Oil of a crankpin over the masses beside it above which it is in grams: a pin holds 2 to 10 g."""
@@ -159,7 +159,7 @@ def point(name: str, at: tuple[float, float, float]) -> None:
 
 def _report(texts: list[str]) -> None:
     if texts:
-        warn(f"{'; '.join(texts)} {UNITS}")
+        warn(f"{'; '.join(texts)} {UNITS_ASSUMED}")
 
 
 def _warn_each(texts: list[str]) -> None:
@@ -253,7 +253,7 @@ def split_pins(
     given
         The firing order as it was given.
     """
-    if (largest := float(np.abs(split_deg).max())) < ROUNDING:
+    if (largest := float(np.abs(split_deg).max())) < EQUAL_INTERVALS:
         return
     try:
         intervals = _core.Firing.named(shared, firing_order, strokes).intervals_deg.tolist()
@@ -263,7 +263,7 @@ def split_pins(
         count = next(
             count
             for count in range(1, len(intervals) + 1)
-            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=ROUNDING)
+            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=EQUAL_INTERVALS)
         )
         fires = f"fire at {'-'.join(f'{interval:.6g}' for interval in intervals[:count])}°"
     warn(

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 EVEN = 1e-6
 """Difference between steps of a grid, over the largest, up to which they are equal."""
 
-PARTS = 8
+PARTS_OF_STEP = 8
 """Parts of a step between two points over which the piston's way is summed."""
 
 
@@ -414,7 +414,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         edges = np.append(self.theta_deg, start + self.period_deg)
         steps = np.diff(edges)
         before, steps = edges[:-1][steps > 0.0], steps[steps > 0.0]
-        shares = np.arange(PARTS + 1) / PARTS
+        shares = np.arange(PARTS_OF_STEP + 1) / PARTS_OF_STEP
         angles = before[:, None] + steps[:, None] * shares
         inside = before[:, None] + steps[:, None] * np.array([1e-9, 1.0 / 3.0, 2.0 / 3.0, 1 - 1e-9])
         first, second, third, fourth = self.pressure_at(inside).T

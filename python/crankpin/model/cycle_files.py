@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from crankpin.model.cycle import Cycle
     from crankpin.model.table_files import Column, Columns
 
-HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
+TEXT_FILE_HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
 
 PRESSURE_UNITS = {
     "Pa": 1.0,
@@ -57,9 +57,9 @@ DIFFERENT = 1e-3
 """Part of a step by which angles of two cycles may differ and still be one grid."""
 INCOMPLETE = 0.9
 """Part of a period below which a block is no whole cycle."""
-GAP = 1.9
+MISSING_STEP = 1.9
 """Step over the usual one beside it from which lines are missing: a missing tooth makes it 2."""
-BESIDE = 5
+STEPS_BESIDE = 5
 """Steps at either side of which the median is the usual one."""
 RARE = 0.05
 """Part of the steps of a file up to which gaps, or angles that stand twice, are faults of it."""
@@ -74,7 +74,7 @@ have 0.01."""
 RECORDED_SPEEDS = (15.0, 40_000.0)
 """Speeds, rpm, of ship's engines at their slowest and of models: others are of times in other
 units."""
-NAMED = 3
+MOST_PLACES_NAMED = 3
 """Number of places that a warning names; of more it gives the count."""
 
 
@@ -179,7 +179,7 @@ def load(
         If compressions follow each other at another speed than is given, lines are missing or
         repeated; or there are spikes or odd cycles.
     """
-    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
+    file = inputs.file_path(path, table_files.TABLE_ENDINGS, table_files.FILE_HINT)
     hint = "give two, of angle and pressure, or more of pressure"
     chosen = None if columns is None else inputs.items("columns", columns, hint)
     if chosen is not None and len(chosen) < 2:
@@ -205,7 +205,7 @@ def load_cylinders(
     strokes: int | None = None,
 ) -> list[Recorded]:
     """Return the cycles of several cylinders in a file: see :meth:`Traces.load_cylinders`."""
-    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
+    file = inputs.file_path(path, table_files.TABLE_ENDINGS, table_files.FILE_HINT)
     hint = "give that of angle, and one or a list for each cylinder"
     angle, *cylinders = inputs.items("columns", columns, hint) or [None]
     lists = [
@@ -386,13 +386,13 @@ def _warn_of_gaps(text: Columns, half: float) -> None:
     where = text.numbers[:, 0]
     steps = np.abs(np.diff(where))
     inside = steps < half  # not where angles begin again
-    if len(steps) <= 2 * BESIDE:
+    if len(steps) <= 2 * STEPS_BESIDE:
         return
-    wide = inside & (steps > GAP * np.median(steps[inside]))
+    wide = inside & (steps > MISSING_STEP * np.median(steps[inside]))
     gaps = list[int]()
     for k in np.flatnonzero(wide) if int(wide.sum()) <= RARE * len(steps) else ():
-        beside = steps[max(0, k - BESIDE) : k + BESIDE + 1]
-        if steps[k] > GAP * np.median(beside):
+        beside = steps[max(0, k - STEPS_BESIDE) : k + STEPS_BESIDE + 1]
+        if steps[k] > MISSING_STEP * np.median(beside):
             gaps.append(int(k))
     if gaps:
         lines = text.lines
@@ -410,8 +410,8 @@ def _warn_of_gaps(text: Columns, half: float) -> None:
 
 def _listed(places: Sequence[str]) -> str:
     """Return some places in words, and how many there are besides."""
-    more = f" and {len(places) - NAMED} more" if len(places) > NAMED else ""
-    return ", ".join(places[:NAMED]) + more
+    more = f" and {len(places) - MOST_PLACES_NAMED} more" if len(places) > MOST_PLACES_NAMED else ""
+    return ", ".join(places[:MOST_PLACES_NAMED]) + more
 
 
 # --- cycles ---------------------------------------------------------------------------------------
@@ -587,7 +587,7 @@ def _rises(seconds: NDArray[np.float64], pressure: NDArray[np.float64]) -> NDArr
 
 def save(cycle: Cycle, path: str | Path) -> None:
     """Write a cycle to a file that reads back as an equal one."""
-    file = inputs.file_path(path, table_files.TEXTS, HINT)
+    file = inputs.file_path(path, table_files.TEXTS, TEXT_FILE_HINT)
     separator = "\t" if file.suffix.lower() == ".tsv" else ","
     in_line = cycle.name.isprintable() and cycle.name == " ".join(cycle.name.split())
     name = cycle.name if in_line and not cycle.name.startswith('"') else json.dumps(cycle.name)

@@ -15,14 +15,14 @@ from typing import Any
 from crankpin import _core
 from crankpin._support import inputs
 
-ENDINGS = (".toml", ".json")
+ENGINE_ENDINGS = (".toml", ".json")
 MULTILINE = ('"""', "'''")
 """Quotes of texts of several lines, between which nothing may be added."""
 
 
 def checked(path: object, name: str = "path") -> Path:
     """Return the path of an engine file, its ending checked."""
-    return inputs.file_path(path, ENDINGS, "an engine file ends in .toml or .json", name)
+    return inputs.file_path(path, ENGINE_ENDINGS, "an engine file ends in .toml or .json", name)
 
 
 def is_toml(file: Path) -> bool:

@@ -60,7 +60,7 @@ UNLIKE = 0.05
 """Deviation from the median, over its range, from which a cycle is odd."""
 BEGINNING = "measured pressure: "
 """Beginning of the warning of spikes and odd cycles."""
-NAMED = 3
+MOST_CYCLES_NAMED = 3
 """Number of cycles that a warning names; of more it gives the count."""
 
 
@@ -168,7 +168,7 @@ def find(
 
 def _median(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the median of each column, some at a time: Ctrl-C is answered in between."""
-    width = max(1, inputs.PIECE // max(1, len(rows)))
+    width = max(1, inputs.PIECE_NUMBERS // max(1, len(rows)))
     pieces = [rows[:, k : k + width] for k in range(0, rows.shape[1], width)]
     return np.concatenate([np.median(piece, axis=0) for piece in pieces] or [np.empty(0)])
 
@@ -317,8 +317,9 @@ def report(oddities: Oddities) -> None:
     if ordered := sorted(
         oddities.listed, key=lambda oddity: (oddity.kind == "spike", oddity.cycle)
     ):
-        more = f" and {len(ordered) - NAMED} more" if len(ordered) > NAMED else ""
+        rest = len(ordered) - MOST_CYCLES_NAMED
+        names = ", ".join(map(str, ordered[:MOST_CYCLES_NAMED]))
         warn(
-            f"{BEGINNING}{', '.join(map(str, ordered[:NAMED]))}{more}; crankpin.prepare_trace "
+            f"{BEGINNING}{names}{f' and {rest} more' if rest > 0 else ''}; crankpin.prepare_trace "
             'replaces spikes, spikes="replace", and leaves odd cycles out, leave_out="odd"'
         )

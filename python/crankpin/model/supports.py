@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 Coordinate: TypeAlias = tuple[str, str]
 """Name of a mount, and ``"x"``, ``"y"`` or ``"z"``."""
-AXES = ("x", "y", "z")
-PAIRS = 'give pairs of the name of a mount and "x", "y" or "z"'
+DIRECTIONS = ("x", "y", "z")
+PAIRS_HINT = 'give pairs of the name of a mount and "x", "y" or "z"'
 
 
 class Subframe(Input):
@@ -111,12 +111,12 @@ class Receptance(Input):
 
     def __post_init__(self) -> None:
         pairs = []
-        for k, pair in enumerate(inputs.items("coordinates", self.coordinates, PAIRS)):
-            both = inputs.items(f"coordinates[{k}]", pair, PAIRS)
+        for k, pair in enumerate(inputs.items("coordinates", self.coordinates, PAIRS_HINT)):
+            both = inputs.items(f"coordinates[{k}]", pair, PAIRS_HINT)
             if len(both) != 2:
-                raise inputs.rejected(f"coordinates[{k}]", pair, PAIRS)
+                raise inputs.rejected(f"coordinates[{k}]", pair, PAIRS_HINT)
             name = inputs.text(f"coordinates[{k}][0]", both[0])
-            pairs.append((name, inputs.one_of(f"coordinates[{k}][1]", both[1], AXES)))
+            pairs.append((name, inputs.one_of(f"coordinates[{k}][1]", both[1], DIRECTIONS)))
         hint = (
             "give a pair: frequencies in Hz, and complex receptances of shape "
             "(n_frequencies, n_coordinates, n_coordinates), m/N"
@@ -143,7 +143,7 @@ class Receptance(Input):
     def _figures(self) -> tuple[Any, ...]:
         """The figures as the core takes them."""
         frequency, values = self.table
-        places = [(name, AXES.index(axis)) for name, axis in self.coordinates]
+        places = [(name, DIRECTIONS.index(axis)) for name, axis in self.coordinates]
         rows = np.array(values).reshape(len(places) and -1, len(places) ** 2)
         points = [
             (name, np.array(moved).transpose(0, 2, 1).tolist())
@@ -178,7 +178,7 @@ def of_core(figures: Any) -> Support | None:  # noqa: ANN401 - as the core gives
     count = len(places)
     values = np.array(rows).reshape(-1, count, count)
     receivers = {name: np.array(moved).transpose(0, 2, 1) for name, moved in points}
-    coordinates = [(name, AXES[axis]) for name, axis in places]
+    coordinates = [(name, DIRECTIONS[axis]) for name, axis in places]
     return Receptance(coordinates, (frequency, values), receivers or None)
 
 

@@ -25,8 +25,8 @@ TEXTS = (".csv", ".tsv", ".txt", ".dat", ".asc")
 """Endings of text files."""
 SHEETS = (".xlsx", ".xlsm")
 """Endings of spreadsheets."""
-ENDINGS = (*TEXTS, *SHEETS)
-HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc, or a spreadsheet, .xlsx"
+TABLE_ENDINGS = (*TEXTS, *SHEETS)
+FILE_HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc, or a spreadsheet, .xlsx"
 
 # At the end of a piece a carriage return may be the first half of a line's end.
 _LINE = re.compile(r"\r\n|\r(?!\Z)|\n")
@@ -44,7 +44,7 @@ _UNIT = re.compile(
 
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 """Byte order marks, and what they stand for."""
-PIECE = 2**20
+PIECE_BYTES = 2**20
 """Bytes that are read and converted at once: Ctrl-C is answered in between."""
 SHEET_ROWS = 2000
 """Rows of a spreadsheet that are converted at once."""
@@ -104,7 +104,7 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
     places: list[NDArray[np.int64]] = []
     line = count = length = 0
     for texts in _pieces(file, sheet):
-        lines, at = list[str](), list[int]()
+        raw, at = list[str](), list[int]()
         for text in texts:
             line += 1
             stripped = text.strip()
@@ -129,14 +129,14 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
                 rows = _Rows(separator, len(cells), chosen, columns is None, indented)
             if stripped[0] not in "#%!":
                 # The first cell of a line may be empty, where tabs separate them.
-                lines.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
+                raw.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
                 at.append(line)
         if rows is None:
             length += sum(map(len, texts))
             if length > _core.LONGEST_FILE:
                 break
-        elif lines:
-            part, parsed = rows.numbers(lines, at)
+        elif raw:
+            part, parsed = rows.numbers(raw, at)
             parts.append(part)
             places.append(np.array(parsed, dtype=np.int64))
             count += len(part)
@@ -162,14 +162,16 @@ def _pieces(file: Path, sheet: str | None) -> Iterator[list[str]]:
     if sheet is not None:
         raise inputs.rejected("sheet", sheet, "text files have none; leave it out")
     with file.open("rb") as opened:
-        piece = opened.read(PIECE)
+        piece = opened.read(PIECE_BYTES)
         decoder, rest = codecs.getincrementaldecoder(_encoding(piece))("replace"), ""
         while piece:
             *lines, rest = _LINE.split(rest + decoder.decode(piece))
-            if len(rest) > PIECE:
-                raise inputs.faulty("path", f"has a line of more than {PIECE} characters", HINT)
+            if len(rest) > PIECE_BYTES:
+                raise inputs.faulty(
+                    "path", f"has a line of more than {PIECE_BYTES} characters", FILE_HINT
+                )
             yield lines
-            piece = opened.read(PIECE)
+            piece = opened.read(PIECE_BYTES)
         yield _LINE.split(rest + decoder.decode(b"", final=True))
 
 

@@ -40,8 +40,6 @@ OFFSET = (
     "no absolute pressure is below zero. If the sensor's offset is in it, crankpin.prepare_trace "
     "removes it"
 )
-OF_A_NORMAL = 1.482602
-"""Standard deviation over median magnitude of normally distributed numbers."""
 
 
 class Traces(Tabled, Input):
@@ -334,7 +332,7 @@ class Traces(Tabled, Input):
         differences = np.array([np.abs(np.diff(trace, 4)) for trace in self.pressure])
         if not differences.size:
             return 0.0
-        return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
+        return float(odd_cycles.OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
 
     @functools.cached_property
     def peaks(self) -> NDArray[np.float64]:

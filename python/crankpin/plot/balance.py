@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.by_order import OrderBalance
 
 
-BESIDE = 6.0
+STEM_DISTANCE = 6.0
 """Points between stems of the same order."""
 ZEROS = "crankpin zeros"
 """Marks the hollow circles of a series by their gid."""
@@ -136,7 +136,7 @@ def beside_each_other(ax: Axes) -> None:
         return
     gap = np.diff(orders, prepend=0.0).min() / orders[-1]
     width = 72.0 * ax.get_window_extent().width / figure.dpi
-    beside = min(BESIDE, 0.9 * gap * width / len(pairs))
+    beside = min(STEM_DISTANCE, 0.9 * gap * width / len(pairs))
     for k, (line, zeros) in enumerate(pairs):
         points = beside * (k - 0.5 * (len(pairs) - 1))
         shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
@@ -164,7 +164,7 @@ def scale_spectrum(ax: Axes, *, logarithmic: bool, orders_given: bool) -> None:
 
 # --- ellipses ------------------------------------------------------------------------------------
 
-PHASES = np.linspace(0.0, 2.0 * np.pi, 181)
+PHASES_OF_ELLIPSE = np.linspace(0.0, 2.0 * np.pi, 181)
 
 
 def ellipses(
@@ -211,12 +211,12 @@ def ellipse(
 ) -> NDArray[np.complex128]:
     """Draw one ellipse, a dot where it is at θ = 0, and an arrow from there; return the curve."""
     vector = getattr(order, name)
-    curve: NDArray[np.complex128] = vector.forward * np.exp(1j * PHASES)
-    curve = curve + vector.backward * np.exp(-1j * PHASES)
+    curve: NDArray[np.complex128] = vector.forward * np.exp(1j * PHASES_OF_ELLIPSE)
+    curve = curve + vector.backward * np.exp(-1j * PHASES_OF_ELLIPSE)
     (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text or "_", **style)
     ax.plot(curve.real[:1], curve.imag[:1], "o", color=line.get_color(), gid="crankpin start")
     if vector.minor != 0.0:
-        arrow_at(ax, curve, len(PHASES) // 8, line.get_color())
+        arrow_at(ax, curve, len(PHASES_OF_ELLIPSE) // 8, line.get_color())
     return curve
 
 
@@ -231,7 +231,7 @@ def direction(order: OrderBalance, name: str) -> str:
 # --- balance -------------------------------------------------------------------------------------
 
 
-KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
+DRAWN_BY_KIND: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
 
 @picture.register(Balance)
@@ -276,4 +276,4 @@ def _balance(
     (2, 2)
     """
     options = {"quantity": quantity, "orders": orders, "log": log, "label": label}
-    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)
+    return draw_kind(DRAWN_BY_KIND, kind, result, ax, figure, **options, **style)

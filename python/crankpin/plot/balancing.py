@@ -114,7 +114,7 @@ def _balance_shafts(
 
 # --- balancers -----------------------------------------------------------------------------------
 
-MOST_SETS = 24
+MOST_SETS_DRAWN = 24
 """Largest number of sets shown below each other, those with the fewest shafts."""
 TARGET = "crankpin target"
 """Marks the lines at the targets by their gid."""
@@ -137,7 +137,7 @@ def _balancers(
     ax = axes_or_new(ax)
     alone = not count_series(ax)
     room = _room(ax)
-    most = max(1, min(MOST_SETS, int(room / SMALLEST)) - len(names_there(ax)))
+    most = max(1, min(MOST_SETS_DRAWN, int(room / SMALLEST)) - len(names_there(ax)))
     options = result.pareto_front[:most]
     left_out = len(result.pareto_front) - len(options)
     set_title(
@@ -223,7 +223,7 @@ def _short(name: str) -> str:
 
 # --- bob weight ----------------------------------------------------------------------------------
 
-POINTS = 201
+ELLIPSE_POINTS = 201
 
 
 @picture.register(BobWeight)
@@ -252,7 +252,7 @@ def _bob_weight(
     end = max(1.0, result.factor, *(factor for factor, _ in lines))
     # Both half axes have corners at these factors.
     corners = [factor for factor, _ in lines] + [result.optimal_factor(name) or 0.0, result.factor]
-    factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
+    factors = np.unique([*np.linspace(0.0, end, ELLIPSE_POINTS), *corners])
     longest, shortest = result.half_axes(name, factors)
     axes_of = result.half_axes(name, result.factor)
     set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
-from crankpin.analysis.bearings import PARTS, BearingLoads
+from crankpin.analysis.bearings import CUT_PARTS, BearingLoads
 from crankpin.plot.layout import (
     Drawn,
     Kinds,
@@ -129,7 +129,7 @@ def bending(
     **style: object,
 ) -> Axes:
     """Draw the largest bending moments along z, of each crank, with the main bearings."""
-    parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
+    parts = CUT_PARTS if part is None else (inputs.one_of("part", part, CUT_PARTS),)
     cranks = sorted(set(result.main_crank.tolist()))
     cuts = [(kind, k) for kind in parts for k in (cranks if kind == "crank" else cranks[:1])]
     reject_figure(figure, "bending")
@@ -184,7 +184,7 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
+LOAD_PICTURES: Kinds = {"polar": polar, "curves": curves, "bending": bending}
 
 
 @picture.register(BearingLoads)
@@ -233,4 +233,4 @@ def _bearings(
     >>> ax = loads.plot(kind="bending", part="crankcase")
     """
     options = {"load": load, "numbers": numbers, "axes": axes, "part": part, "label": label}
-    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)
+    return draw_kind(LOAD_PICTURES, kind, result, ax, figure, **options, **style)

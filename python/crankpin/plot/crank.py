@@ -50,17 +50,17 @@ if TYPE_CHECKING:
     from crankpin.analysis.geometry import Weight
     from crankpin.model.engine import Engine
 
-PINS = "crankpin pins"
+PIN_MARKS = "crankpin pins"
 """Marks the main journal, then the crankpins."""
 UNBALANCES = "crankpin unbalances"
 """Marks the discs of rotating masses in the star, then the sectors of counterweights."""
-LINE = 1.3
+LINE_HEIGHT = 1.3
 """Height of a line of text over the size of its font."""
 AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
-LOADS = "crankpin loads"
+LOAD_MARKS = "crankpin loads"
 """Marks the places of periodic loads in the side view."""
 MOST_LOADS = 8
 """Places of loads that have their names."""
@@ -128,7 +128,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         *(disc(at, half) for _, at in places),
     ]
     faces = [ink.paper] * len(centres) + [ink.journal] * len(places)
-    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
+    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PIN_MARKS)
     # The layout may make the axes smaller yet.
     scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(cranks))
     for crank, centre in centres.items():
@@ -233,7 +233,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
             low, high = min(a, b) - 1.2 * half, max(a, b) + 1.2 * half
             webs.append(_rectangle(z - 0.5 * thick, z + 0.5 * thick, low, high))
     looks = {"facecolor": ink.journal, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    add(ax, journals, gid=PINS, **looks)
+    add(ax, journals, gid=PIN_MARKS, **looks)
     add(ax, webs, **(looks | {"facecolor": ink.web} | style))
     flywheel = 1.5 * crank_radius(engine)
     wheels = [
@@ -305,7 +305,7 @@ def _number(
         text = text.replace(", ", "\n")
     up = 1.0 if y - line > -1e-9 * clear else -1.0
     write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
-    return 3.0 + LINE * font.get_size_in_points() * (text.count("\n") + 1)
+    return 3.0 + LINE_HEIGHT * font.get_size_in_points() * (text.count("\n") + 1)
 
 
 def _weights(
@@ -357,10 +357,10 @@ def _loads(
             names.append(load.name)
     along = [*ends, *(z for z, _ in places)]
     per_metre = 0.5 * 72.0 * inches_of(ax) / (max(along) - min(along))
-    line = LINE * FontProperties(size="x-small").get_size_in_points() / per_metre
+    line = LINE_HEIGHT * FontProperties(size="x-small").get_size_in_points() / per_metre
     for k, ((z, y), names) in enumerate(sorted(places.items())):
         at = {"color": ink.line, "zorder": 6}
-        ax.plot(z, y, marker="D", markersize=5, markerfacecolor=ink.paper, gid=LOADS, **at)
+        ax.plot(z, y, marker="D", markersize=5, markerfacecolor=ink.paper, gid=LOAD_MARKS, **at)
         if k < MOST_LOADS:
             low = min(low, y) - line
             ax.plot([z, z], [y, low], linewidth=0.6, linestyle=":", **at)

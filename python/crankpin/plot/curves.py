@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 MOST_DASHES = 4
 """Number of dashes that are used beside colours of another meaning."""
-NAMED = 5
+MOST_ENGINES_NAMED = 5
 """Engines with a name in the legend where there are too many for all."""
 THIN: dict[str, Any] = {"linewidth": 0.8, "linestyle": "-"}
 
@@ -129,7 +129,7 @@ def engine_looks(
 
     The others are thin lines below them, with one entry in the legend.
     """
-    count = len(names) if len(names) <= DISTINCT else NAMED
+    count = len(names) if len(names) <= DISTINCT else MOST_ENGINES_NAMED
     largest = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
     looks = series(ax, count, style)
     curves = [Curve((k,), look, names[k]) for k, look in zip(largest, looks, strict=True)]

@@ -32,9 +32,9 @@ LEAST_PART = 0.7
 """Part of their cell in a grid that texts take at least, however small the axes become."""
 MOST_PASSES = 4
 """Layouts of a figure after which texts and legends stay as they are; most pictures take two."""
-MOST_ROWS = 2
+MOST_LEGEND_ROWS = 2
 """Rows of a legend that is no wider than its axes."""
-GAP = 4.0
+LEGEND_GAP = 4.0
 """Points between the labels of an axis and the legend."""
 HANDLE, BETWEEN = 2.2, 1.2
 """Length of a line in a legend, and distance of its columns, in sizes of type."""
@@ -454,7 +454,7 @@ class _Legend:
             below, beside = self.place.xaxis.get_tightbbox(), self.place.yaxis.get_tightbbox()
             down = 0.0 if below is None else max(0.0, frame.y0 - below.y0) / dpi
             room = 0.0 if beside is None else max(0.0, frame.x0 - beside.x0)
-            if len(names) > MOST_ROWS * arranged["ncols"]:
+            if len(names) > MOST_LEGEND_ROWS * arranged["ncols"]:
                 # Under the labels of the vertical axis there is room too.
                 wider = self._arranged(names, across + room)
                 if wider["ncols"] > arranged["ncols"]:
@@ -473,7 +473,7 @@ class _Legend:
         if not isinstance(self.place, Axes):
             return {"loc": "outside lower left"}
         to_inches = self.place.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
-        shift = ScaledTranslation(-left, -down - GAP / 72.0, to_inches)
+        shift = ScaledTranslation(-left, -down - LEGEND_GAP / 72.0, to_inches)
         return {
             "loc": "upper left",
             "bbox_to_anchor": (0.0, 0.0),

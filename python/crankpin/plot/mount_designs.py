@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.plot.layout import Panels
 
-THIN = 0.45
+THIN_STRENGTH = 0.45
 """Strength of the lines of many designs."""
 
 
@@ -131,7 +131,7 @@ def _designs(
         force = response.body_force if name is None else response.mount_force[name]
         return np.asarray(force.total.peak if wanted is None else force[wanted].peak)
 
-    thin: dict[str, Any] = {"color": muted(ax, THIN), "linewidth": 0.6, "zorder": 1.5}
+    thin: dict[str, Any] = {"color": muted(ax, THIN_STRENGTH), "linewidth": 0.6, "zorder": 1.5}
     largest = 0.0
     for place, k in enumerate(picked):
         values = peaks(int(k))
@@ -201,7 +201,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     return ax
 
 
-SAME = 1e-9
+SAME_AXIS = 1e-9
 """Relative difference of roll stiffnesses, by rounding, within which one axis is drawn."""
 VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1), ("from above", 2, 0))
 """Name of a view, and the axes to the right and up."""
@@ -226,7 +226,7 @@ def _axes(
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
     corners = [places[name] for name in powertrain.static().support_polygon]
     static, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
-    is_dynamic = abs(dynamic - static) > SAME * static
+    is_dynamic = abs(dynamic - static) > SAME_AXIS * static
     lines = [
         ("torque roll axis", cg, result.torque_roll),
         ("elastic roll axis", result.elastic_foot, result.elastic),

@@ -22,7 +22,15 @@ from crankpin.plot.layout import (
     set_panel_title,
     width_for,
 )
-from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
+from crankpin.plot.rows import (
+    MOST_ORDERS_DRAWN,
+    along_x,
+    dimension,
+    given_orders,
+    largest,
+    values_of,
+    words_of,
+)
 from crankpin.plot.style import DISTINCT, entries_of, series
 from crankpin.plot.ticks import degrees, magnitude_scale, numeric, span
 from crankpin.plot.words import drawn_quantity, nonzero_in
@@ -58,7 +66,7 @@ def parts(
         raise inputs.rejected("kind", "parts", hint)
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]
-    places, note = largest(sweep, name, MOST - 1)
+    places, note = largest(sweep, name, MOST_ORDERS_DRAWN - 1)
     # Where all are zero, one panel says so.
     chosen = [sweep.orders[place] for place in places] or [*(sweep.orders or (1,))[:1]]
     if orders is not None:

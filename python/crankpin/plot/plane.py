@@ -47,13 +47,13 @@ DOTS = 30.0
 """Degrees between dots."""
 LABELS = 4
 """Dots of a period with their angle."""
-SAME = 0.08
+SAME_LABEL = 0.08
 """Part of the orbit's radius within which dots share one label."""
-NARROWEST = 0.75
+NARROWEST_PANEL = 0.75
 """The shorter side of panels that share a scale, over the longer one."""
-LEVEL = 1e-9
+ON_AXIS = 1e-9
 """Part of a point's distance within which it is on an axis: rounding."""
-NARROW = 0.3
+NARROW_CURVE = 0.3
 """Shorter over longer reach below which the angles of a curve stand across its length."""
 ARROWS = (15.0, 135.0, 255.0)
 """Crank angles of the arrows, degrees."""
@@ -154,10 +154,10 @@ def _beside(
     Away from the origin; of a long and narrow curve, on which they would stand then, across it.
     """
     high, wide = (abs(part).max(initial=0.0) for part in (curve.imag, curve.real))
-    across = 1j if high <= NARROW * wide else 1.0 if wide <= NARROW * high else 0.0
+    across = 1j if high <= NARROW_CURVE * wide else 1.0 if wide <= NARROW_CURVE * high else 0.0
     for k, (point, angles) in enumerate(labelled):
         side = (point * np.conj(across)).real
-        if abs(side) <= LEVEL * abs(point):
+        if abs(side) <= ON_AXIS * abs(point):
             side = (-1.0) ** k
         yield point, angles, across * side or point
 
@@ -173,7 +173,7 @@ def _labelled(
     theta: NDArray[np.float64], curve: NDArray[np.complex128], period: float
 ) -> Iterator[tuple[complex, str]]:
     """Yield points and the crank angles at which the curve passes them."""
-    near = SAME * float(abs(curve).max(initial=0.0))
+    near = SAME_LABEL * float(abs(curve).max(initial=0.0))
     rest = list(_places(theta, period / LABELS, period)) if near else []
     while rest:
         here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
@@ -211,7 +211,7 @@ def share_scale(panels: Panels) -> None:
     limits = np.stack([ends.min(axis=(0, 1)), ends.max(axis=(0, 1))], axis=-1)
     spans = limits[:, 1] - limits[:, 0]
     # Panels of long and narrow curves have room for the angles at them.
-    lacking = np.maximum(0.0, NARROWEST * spans[::-1] - spans)
+    lacking = np.maximum(0.0, NARROWEST_PANEL * spans[::-1] - spans)
     limits += 0.5 * np.stack([-lacking, lacking], axis=-1)
     columns = panels.axes.shape[1]
     for place, panel in enumerate(visible):

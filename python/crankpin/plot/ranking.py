@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.design.designs import Design
     from crankpin.analysis.ranking.ranking import Choice
 
-POINTS = 181
+CURVE_POINTS = 181
 """Bank angles of a design's curve, besides those of the designs."""
 BEST, DESIGN = "best bank angle", "design"
 MANY = 300
@@ -199,7 +199,7 @@ def _over_bank_angle(
     question = designs.question
     low, high = bank_angle_range(designs)
     bank_angles = [float(design.bank_angle_deg or 0.0) for design in best]
-    angles = np.union1d(np.linspace(low, high, POINTS), bank_angles)
+    angles = np.union1d(np.linspace(low, high, CURVE_POINTS), bank_angles)
     heights = designs.over_bank_angle(angles, len(best))
     # Several designs may be dips of one curve.
     cranks = [turned(question, design.crank, low) for design in best]

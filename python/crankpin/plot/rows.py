@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.by_order import ByOrder
     from crankpin.analysis.sweeps.sweep import Sweep
 
-MOST = 4
+MOST_ORDERS_DRAWN = 4
 """Number of orders in a picture."""
 
 
@@ -31,7 +31,7 @@ def given_orders(orders: object) -> list[Order]:
     raise inputs.rejected("orders", [], "give at least one order, such as [1, 2]")
 
 
-def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int], str]:
+def largest(result: ByOrder, quantity: str, most: int = MOST_ORDERS_DRAWN) -> tuple[list[int], str]:
     """Return places of the largest orders, ascending, and a note of the others, if not zero."""
     count = len(result.orders)
     peaks = (
@@ -93,7 +93,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     rows = [row(f"all orders{which}", sweep.total)]
     if single:
         return Rows(rows, columns, "")
-    places, note = largest(sweep, quantity, MOST - 1)
+    places, note = largest(sweep, quantity, MOST_ORDERS_DRAWN - 1)
     rows += [one(sweep.orders[place]) for place in places]
     return Rows(rows, columns, note)
 

@@ -290,7 +290,7 @@ drawn_as(
 
 # --- results without a picture --------------------------------------------------------------------
 
-WITHOUT = {
+WITHOUT_PICTURE = {
     ClosedForm: "a formula: draw engine.balance(…), or print it with to_latex",
     WorstForce: "one number: draw the response, which has all",
 }
@@ -299,8 +299,10 @@ WITHOUT = {
 
 def _reject(result: object, ax: object = None) -> Drawn:
     """Raise an InputError: of this there is no picture."""
-    raise inputs.faulty("plot", f"has no picture of {type(result).__name__}", WITHOUT[type(result)])
+    raise inputs.faulty(
+        "plot", f"has no picture of {type(result).__name__}", WITHOUT_PICTURE[type(result)]
+    )
 
 
-for _kind in WITHOUT:
+for _kind in WITHOUT_PICTURE:
     picture.register(_kind, _reject)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_BINS = 80
-ROUNDING = 1e-9
+EQUAL_VALUES = 1e-9
 """Relative difference of values that is drawn as none."""
 INTERACTION = 0.05
 """Difference of summed shares from 1 that is explained."""
@@ -97,7 +97,7 @@ def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], labe
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the limits of the intervals; a single one if only rounding distinguishes values."""
     low, high = float(values.min()), float(values.max())
-    if high - low <= ROUNDING * abs(high):
+    if high - low <= EQUAL_VALUES * abs(high):
         margin = 0.01 * abs(high) or 1.0
         return np.array([low - margin, high + margin])
     return np.histogram_bin_edges(

@@ -39,9 +39,9 @@ PARTS = {
 RECIPROCATING, ROTATING = "reciprocating", "rotating"
 RODS = {"small end": RECIPROCATING, "big end": ROTATING}
 """End of a rod → what it counts as."""
-G_MM = 1e6
+G_MM_PER_KG_M = 1e6
 """Gram millimetres to a kg·m."""
-ROUNDING = 1e-12
+EQUAL_FACTORS = 1e-12
 """Differences of factors, and parts of the longest vector, that are rounding."""
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -156,7 +156,7 @@ def remarks_by_factor(
     words: dict[float, list[str]] = {factor: [] for factor in factors}
     for factor, text in remarks:
         # 0.5 comes out as 0.49999999999999994 at times.
-        near = next((marked for marked in words if abs(marked - factor) < ROUNDING), factor)
+        near = next((marked for marked in words if abs(marked - factor) < EQUAL_FACTORS), factor)
         words.setdefault(near, []).append(text)
     return {factor: ", ".join(filter(None, texts)) for factor, texts in words.items()}
 
@@ -252,7 +252,7 @@ class Card(Tabled):
             if not bob._first_order.exists(name):
                 continue
             longest, shortest = (omega_squared * axis for axis in bob.half_axes(name, factors))
-            shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
+            shortest[abs(shortest) < EQUAL_FACTORS * longest.max()] = 0.0
             unit = QUANTITIES[name].unit
             words = tuple(self._direction(name, factor) for factor in factors)
             columns += [
@@ -303,7 +303,7 @@ class Card(Tabled):
                 self.balanced_to,
             ):
                 plane, mass, slug = each["plane"], each["mass"], each["heavy_metal"]
-                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * each["amount"])
+                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM_PER_KG_M * each["amount"])
                 row += (each["add_at_deg"], each["drill_at_deg"])
                 if radii is not None and mass is not None and slug is not None:
                     row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)

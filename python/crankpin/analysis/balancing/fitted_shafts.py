@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 SHAKEN = ("force", "moment", "torque")
 """Quantities that shafts change."""
-EQUAL = 1e-9
+EQUAL_FORCES = 1e-9
 """Relative difference up to which the forces of a pair are equal."""
 
 
@@ -286,4 +286,4 @@ def _is_a_pair(forces: list[tuple[Order, complex]]) -> bool:
     if len(forces) != 2 or forces[0][0] != -forces[1][0]:
         return False
     sizes = [abs(force) for _, force in forces]
-    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL * max(sizes)
+    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL_FORCES * max(sizes)

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 Planes: TypeAlias = "ArrayLike | Mapping[str, float | tuple[float, int]]"
-HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
-MOST = 200
+PLANES_HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
+MOST_PLANES = 200
 """Largest number of planes."""
 MOST_ANGLES = 10_000
 """Largest number of angles of all planes together: a step of the fit takes 40 ms then."""
@@ -54,10 +54,10 @@ def named(engine: Engine, planes: Planes) -> dict[str, Place]:
     if isinstance(planes, Mapping):
         places = {inputs.text("planes", name): _place(name, z) for name, z in planes.items()}
     else:
-        entries = inputs.items("planes", planes, HINT)
+        entries = inputs.items("planes", planes, PLANES_HINT)
         places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(entries, start=1)}
-    if not 1 <= len(places) <= MOST:
-        raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST}")
+    if not 1 <= len(places) <= MOST_PLANES:
+        raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST_PLANES}")
     checks.place(engine_core(engine), "planes", *(place.z for place in places.values()))
     return places
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.quantity import Quantity
     from crankpin.model.mounts import Mount
 
-FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
+MOUNT_FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
 """Figures of a mount that can differ between designs."""
 
 
@@ -268,7 +268,7 @@ def designs(
 def _values(mount: Mount, figure: str, numbers: ArrayLike) -> NDArray[np.float64]:
     """Return the values of a figure, one or three of each design."""
     name = f"vary[{mount.name!r}]"
-    inputs.one_of(name, figure, FIGURES)
+    inputs.one_of(name, figure, MOUNT_FIGURES)
     name = f"{name}[{figure!r}]"
     if figure == "stiffness" and mount.dynamic_stiffness is not None:
         hint = (

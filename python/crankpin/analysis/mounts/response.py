@@ -40,7 +40,7 @@ Source: TypeAlias = tuple[Any, ...]
 """Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
-HIGHEST = "> 180"
+HIGHEST_GRADE = "> 180"
 """Text of an infinite grade."""
 SUPPORT = "support"
 """Name of the support, beside a place on it."""
@@ -205,7 +205,9 @@ class PointMotion(Labelled):
             most = units.figure(columns[2].data[largest], "mm/s", 4)
             note = units.Text("Largest velocity ", most, f" at {speeds[largest]:.10g} rpm.")
         if self.order in (None, ALL):
-            grades = [HIGHEST if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()]
+            grades = [
+                HIGHEST_GRADE if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()
+            ]
             columns.append(
                 Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
             )

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Measure: TypeAlias = Callable[[Balance], float]
 """A user's objective."""
 
-MOST_CYLINDERS = 8
+MOST_CYLINDERS_FIRING = 8
 """Cylinders up to which a table has the unevenness of firing, which takes all firing orders."""
 
 
@@ -217,7 +217,7 @@ def of_table(swept: Sweep) -> list[Objective]:
     ]
     if "torque" in swept._request.quantities:
         names.append("total.torque.peak")
-    if all(len(engine) <= MOST_CYLINDERS for engine in swept.engines):
+    if all(len(engine) <= MOST_CYLINDERS_FIRING for engine in swept.engines):
         names.append("unevenness_deg")
     orders = swept._request.orders
     return [

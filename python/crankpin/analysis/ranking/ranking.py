@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.model.engine import Engine, Hold
 
-MOST_ANGLES = 6
+MOST_ANGLES_SHOWN = 6
 """Bank angles shown in a cell."""
 
 
@@ -166,8 +166,8 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
 def _several(angles: tuple[float, ...]) -> str:
     """Return a few angles as text."""
-    text = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
-    rest = len(angles) - MOST_ANGLES
+    text = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES_SHOWN])
+    rest = len(angles) - MOST_ANGLES_SHOWN
     return f"{text} and {rest} more" if rest > 0 else text or "–"
 
 
@@ -269,13 +269,13 @@ def own_angles(engines: Sequence[Engine]) -> NDArray[np.float64]:
 Measured: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 """Computes the objective at bank angles in degrees."""
 
-POINTS = 9
+DIP_POINTS = 9
 """Angles at which a dip is sampled in each round, which leaves a quarter of it."""
-NARROW = 1e-10
+NARROW_DIP = 1e-10
 """Degrees to which a pointed dip is narrowed."""
-FLAT = 1e-14
+FLAT_DIP = 1e-14
 """Relative difference that rounding explains: the middle stands for a dip this flat."""
-SAME = 1e-3
+SAME_DIP = 1e-3
 """Degrees within which two dips count as one."""
 
 
@@ -295,25 +295,27 @@ def dips(
         return np.empty(0)
     low = angles[np.maximum(lowest_given - 1, 0)]
     high = angles[np.minimum(lowest_given + 1, angles.size - 1)]
-    while (high - low).max() > NARROW:
-        across = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, POINTS)
+    while (high - low).max() > NARROW_DIP:
+        across = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, DIP_POINTS)
         heights = at(across)
         lowest, rows = heights.argmin(axis=1), np.arange(lowest_given.size)
         low = across[rows, np.maximum(lowest - 1, 0)]
-        high = across[rows, np.minimum(lowest + 1, POINTS - 1)]
+        high = across[rows, np.minimum(lowest + 1, DIP_POINTS - 1)]
         highest = np.abs(heights).max(axis=1)
-        flat = np.isfinite(highest) & (heights.max(axis=1) <= heights.min(axis=1) + FLAT * highest)
-        low[flat] = high[flat] = across[flat, POINTS // 2]
+        flat = np.isfinite(highest) & (
+            heights.max(axis=1) <= heights.min(axis=1) + FLAT_DIP * highest
+        )
+        low[flat] = high[flat] = across[flat, DIP_POINTS // 2]
     middle = 0.5 * (low + high)
     # The angle with the fewest digits that is as good: 30 for 30.00000000001.
     rounded = np.stack([middle.round(digits) for digits in range(8)] + [middle], axis=1)
     rounded = np.clip(rounded, angles[0], angles[-1])
     heights = at(rounded)
-    as_good = heights <= heights[:, -1:] + FLAT * np.abs(values[lowest_given])[:, None]
+    as_good = heights <= heights[:, -1:] + FLAT_DIP * np.abs(values[lowest_given])[:, None]
     rows, chosen = np.arange(lowest_given.size), as_good.argmax(axis=1)
     minima, depths = rounded[rows, chosen], heights[rows, chosen]
     minima = np.sort(minima[depths < values[lowest_given] - tolerance])
-    return minima[np.append(True, np.diff(minima) > SAME)] if minima.size else minima
+    return minima[np.append(True, np.diff(minima) > SAME_DIP)] if minima.size else minima
 
 
 def _lowest(values: NDArray[np.float64], tolerance: float) -> Iterator[int]:

@@ -39,9 +39,9 @@ if TYPE_CHECKING:
     from crankpin.model.cycle_map import CycleMap
     from crankpin.model.engine import Hold
 
-AXES = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm", "load")
+SWEEP_DIMS = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm", "load")
 """Dimensions after "engine", in the order of results."""
-MOST_SHOWN = 1000
+MOST_POINTS_SHOWN = 1000
 """Points of a sweep whose values are shown: more would take long to compute at a prompt."""
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
@@ -223,7 +223,7 @@ class Sweep(ByOrder[Any]):
             name: values if isinstance(values, np.ndarray) else np.array([values])
             for name, values in self.axes.items()
         }
-        swept = [isinstance(self.axes.get(name), np.ndarray) for name in AXES]
+        swept = [isinstance(self.axes.get(name), np.ndarray) for name in SWEEP_DIMS]
         cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
             cores if self.gas_map is None else self.gas_map.fired(self.engines),
@@ -286,14 +286,14 @@ class Sweep(ByOrder[Any]):
         if self.names is not None:
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
-        swept = {name: self.axes.get(name) for name in AXES}
+        swept = {name: self.axes.get(name) for name in SWEEP_DIMS}
         coords |= {name: values for name, values in swept.items() if isinstance(values, np.ndarray)}
         return read_only(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
-        values = {name: self.axes[name] for name in AXES if name in self.axes}
+        values = {name: self.axes[name] for name in SWEEP_DIMS if name in self.axes}
         return read_only(
             {name: float(value) for name, value in values.items() if name not in self.dims}
         )
@@ -605,7 +605,7 @@ class Sweep(ByOrder[Any]):
 
     @property
     def _brief(self) -> str:
-        if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
+        if math.prod(len(values) for values in self.coords.values()) <= MOST_POINTS_SHOWN:
             return ""
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""

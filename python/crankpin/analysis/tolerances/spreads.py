@@ -149,7 +149,7 @@ def _pins(engine: Engine, groups: Iterable[Iterable[int]]) -> tuple[tuple[int, .
     return pins
 
 
-PIECE = 2**20
+PIECE_DRAWS = 2**20
 """Random numbers drawn between checks for Ctrl-C."""
 
 
@@ -163,7 +163,7 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
     for stream, (name, widths) in enumerate(zip(FIGURES, spreads.values, strict=True)):
         random = numbers.default_rng(numbers.SeedSequence(seed, spawn_key=(stream,)))
         values = np.empty((samples if widths else 0, len(widths)))
-        rows = PIECE // max(len(widths), 1)
+        rows = PIECE_DRAWS // max(len(widths), 1)
         for start in range(0, len(values), rows):
             piece = values[start : start + rows]
             if spreads.distribution == "normal":
