@@ -294,7 +294,7 @@ class Card(Tabled):
         rows: list[tuple[Any, ...]] = []
         for factor in self.factors:
             share = f"{100.0 * factor:.6g} %"
-            for each in _core.corrections(
+            for weight in _core.corrections(
                 core,
                 factor,
                 list(zip(places, cranks, strict=True)),
@@ -302,9 +302,10 @@ class Card(Tabled):
                 self.bob.oil,
                 self.balanced_to,
             ):
-                plane, mass, slug = each["plane"], each["mass"], each["heavy_metal"]
-                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM_PER_KG_M * each["amount"])
-                row += (each["add_at_deg"], each["drill_at_deg"])
+                plane, mass, slug = weight["plane"], weight["mass"], weight["heavy_metal"]
+                amount = G_MM_PER_KG_M * weight["amount"]
+                row: tuple[Any, ...] = (share, names[plane], places[plane], amount)
+                row += (weight["add_at_deg"], weight["drill_at_deg"])
                 if radii is not None and mass is not None and slug is not None:
                     row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
                 rows.append(row)
