@@ -214,7 +214,7 @@ class Traces(Tabled, Input):
         self._check_offset()
         return self._cycle(self.pressure[index])
 
-    def without(self, cycles: int | Iterable[int]) -> Self:
+    def without_cycles(self, cycles: int | Iterable[int]) -> Self:
         """Return the other cycles.
 
         Parameters
@@ -238,7 +238,7 @@ class Traces(Tabled, Input):
         >>> import numpy as np
         >>> theta = np.arange(-360.0, 360.0)
         >>> traces = cp.Traces(theta, np.tile(cp.Cycle.example().pressure_at(theta), (5, 1)))
-        >>> len(traces.without([0, 3])), len(traces[:2])
+        >>> len(traces.without_cycles([0, 3])), len(traces[:2])
         (3, 2)
         """
         several = not isinstance(cycles, (int, np.integer)) or isinstance(cycles, bool)
