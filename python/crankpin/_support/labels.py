@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 UNIT_RPM = 1.0 / _core.angular_speed(1.0)
 """Crank speed at which ω is 1 rad/s."""
 
-TURNING = {"forward": "with the crank", "backward": "against the crank"}
+TURNING_WORDS = {"forward": "with the crank", "backward": "against the crank"}
 """Part of a plane vector → how it turns."""
 
 XARRAY_UNITS = {

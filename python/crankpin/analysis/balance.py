@@ -207,7 +207,7 @@ class Balance(ByOrder[float]):
         core: _core.Balance = self.__dict__["_core"]
         if what == VALUES:
             return core.phasors(quantity, False)
-        if what in labels.TURNING:
+        if what in labels.TURNING_WORDS:
             return core.phasors(quantity, True)[:, int(what == "backward")]
         if what == "peak" and kind_of(quantity).planar:
             forward, backward = np.abs(core.phasors(quantity, True)).T

@@ -191,7 +191,7 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
     if axes:
         by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
     if "axis" in quantity.dims and kind.planar:
-        by_name |= {part: getattr(quantity, part) for part in labels.TURNING}
+        by_name |= {part: getattr(quantity, part) for part in labels.TURNING_WORDS}
     return {
         name: {"real": part.real, "imag": part.imag, "peak": np.abs(part)}
         for name, part in by_name.items()

@@ -291,7 +291,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
         """
-        forward, backward = (self._along(part, "minor", 2) for part in labels.TURNING)
+        forward, backward = (self._along(part, "minor", 2) for part in labels.TURNING_WORDS)
         return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
@@ -300,7 +300,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
         0 for a circle.
         """
-        forward, backward = (self._along(part, "tilt_deg", 2) for part in labels.TURNING)
+        forward, backward = (self._along(part, "tilt_deg", 2) for part in labels.TURNING_WORDS)
         return self._of_one_order(_core.tilts_deg(np.asarray(forward), np.asarray(backward)))
 
     def _of_one_order(self, values: Any) -> Values:  # noqa: ANN401 - an array

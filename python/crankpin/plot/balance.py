@@ -225,7 +225,7 @@ def direction(order: OrderBalance, name: str) -> str:
     minor = getattr(order, name).minor
     if minor == 0.0:
         return "straight line"
-    return labels.TURNING["forward" if minor > 0.0 else "backward"]
+    return labels.TURNING_WORDS["forward" if minor > 0.0 else "backward"]
 
 
 # --- balance -------------------------------------------------------------------------------------

@@ -113,7 +113,7 @@ def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Pa
 
 def _sizes(vector: Quantity) -> NDArray[np.float64]:
     """Return the magnitudes of both parts of an order: (…, 2)."""
-    phasors = np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1)
+    phasors = np.stack([getattr(vector, part) for part in labels.TURNING_WORDS], axis=-1)
     return np.asarray(np.abs(phasors), dtype=np.float64)
 
 
@@ -123,11 +123,11 @@ def _draw(
     """Draw both parts of an order; the column is a place among what is not drawn along x."""
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     heights = np.moveaxis(_sizes(vector), list(sweep.coords).index(along), 0)
-    heights = heights.reshape(len(values), -1, len(labels.TURNING))
-    looks = series(ax, len(labels.TURNING), style)
+    heights = heights.reshape(len(values), -1, len(labels.TURNING_WORDS))
+    looks = series(ax, len(labels.TURNING_WORDS), style)
     drawn = [
         Curve((column, k), look, text)
-        for k, (look, text) in enumerate(zip(looks, labels.TURNING.values(), strict=True))
+        for k, (look, text) in enumerate(zip(looks, labels.TURNING_WORDS.values(), strict=True))
     ]
     span(ax, values)
     lines(ax, values, heights, drawn)

@@ -44,7 +44,7 @@ NOTHING = 1e-10
 """Sum of objectives, with decoupling squared, at which the search stops."""
 WINDOW = 1e-6
 """Share of a limit by which rounding of the optimiser may miss it."""
-EQUAL = 1e-3
+EQUAL_MERITS = 1e-3
 """Relative difference from the best within which another start counts as equally good."""
 MOST_STARTS = 1000
 
@@ -455,7 +455,7 @@ class Question:
             best = min(allowed, key=lambda pair: pair[0])
         else:
             best = min(candidates, key=lambda pair: pair[1])
-        near = best[0] + EQUAL * abs(best[0]) + NOTHING
+        near = best[0] + EQUAL_MERITS * abs(best[0]) + NOTHING
         good = sum(value <= near and miss <= max(best[1], WINDOW) for value, miss, _ in candidates)
         return self._result(best[2], f"Bounded optimisation, seed {seed}", len(candidates), good)
 

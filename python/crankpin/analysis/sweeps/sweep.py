@@ -325,9 +325,9 @@ class Sweep(ByOrder[Any]):
         with progress_bar.shown(self._progress, f"{quantity}, {what}") as report:
             if what == VALUES:
                 return self._core.phasors(quantity, False, report)
-            if what in labels.TURNING:
+            if what in labels.TURNING_WORDS:
                 both = read_only(self._core.phasors(quantity, True, report))
-                for k, part in enumerate(labels.TURNING):  # computed together
+                for k, part in enumerate(labels.TURNING_WORDS):  # computed together
                     self._kept.setdefault((quantity, part), read_only(both[..., k]))
                 return self._kept[quantity, what]  # type: ignore[no-any-return]
             planar = kind_of(quantity).planar

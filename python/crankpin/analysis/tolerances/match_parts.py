@@ -30,7 +30,7 @@ WORDS = {
     "spread": "largest less smallest sum of piston and small end",
 }
 """Objective → its description."""
-UNITS = {"balance": "kg·m", "spread": "kg"}
+UNIT_BY_OBJECTIVE = {"balance": "kg·m", "spread": "kg"}
 """Objective → unit."""
 MOST_PARTS = 1000
 STARTS = 24
@@ -273,7 +273,7 @@ class Match(Tabled):
     @property
     def unit(self) -> str:
         """Unit of the objective: kg·m (over ω²) or kg."""
-        return UNITS[self.by]
+        return UNIT_BY_OBJECTIVE[self.by]
 
     @cached_property
     def values(self) -> tuple[float, ...]:
