@@ -22,8 +22,8 @@ LICENCE = """\
 def main() -> None:
     """Compute and write the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--out", type=Path, default=gas_torque.FILE.parent)
-    path = parser.parse_args().out / gas_torque.FILE.name
+    parser.add_argument("--out", type=Path, default=gas_torque.TABLE_FILE.parent)
+    path = parser.parse_args().out / gas_torque.TABLE_FILE.name
     table = gas_torque.compute()
     path.write_text(LICENCE + table.to_csv(), encoding="utf-8")
     print(f"{len(table)} rows written to {path}")

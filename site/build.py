@@ -173,7 +173,7 @@ def drawn(setting: str) -> dict[str, tuple[str, float]]:
 def said(setting: str) -> dict[str, tuple[str, float]]:
     """Return the units in which a setting has sentences."""
     chosen = units.read(setting)
-    return {unit: tuple(units.convert(unit, chosen)) for unit in explain.UNITS}
+    return {unit: tuple(units.convert(unit, chosen)) for unit in explain.SENTENCE_UNITS}
 
 
 def group(title: str) -> list[str]:

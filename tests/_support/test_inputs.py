@@ -160,7 +160,7 @@ def test_no_module_changes_the_warnings_of_the_process() -> None:
 
 
 def test_long_lists_are_read_in_pieces_as_a_whole() -> None:
-    count = inputs.PIECE + 3
+    count = inputs.PIECE_NUMBERS + 3
     lists: tuple[Any, ...] = (
         list(range(count)),
         [*range(count - 1), 0.5],  # whole numbers, then another kind
@@ -173,4 +173,4 @@ def test_long_lists_are_read_in_pieces_as_a_whole() -> None:
         assert read.shape == np.shape(values)
     for last in ([0.5, 0.5, 0.5], [0.5], 0.5):  # in a piece of its own
         with pytest.raises(cp.InputError, match=r"angles = .*give numbers"):
-            inputs.array("angles", [[0.1, 0.2]] * inputs.PIECE + [last])
+            inputs.array("angles", [[0.1, 0.2]] * inputs.PIECE_NUMBERS + [last])

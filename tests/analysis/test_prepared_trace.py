@@ -190,7 +190,7 @@ def test_filters_transform_a_few_numbers_at_a_time(monkeypatch: pytest.MonkeyPat
                 patched.setattr(np.fft, name, recorded(getattr(np.fft, name)))
             filtered = prepared_trace._convolved(rows, partial(gain, steep))
         np.testing.assert_allclose(filtered, expected, atol=1e-13)
-    assert max(sizes) <= inputs.PIECE < rows.size
+    assert max(sizes) <= inputs.PIECE_NUMBERS < rows.size
 
 
 def test_the_change_of_each_step_is_reported() -> None:

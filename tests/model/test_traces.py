@@ -208,12 +208,12 @@ def test_slices_and_cycles_left_out_are_traces() -> None:
     traces = measured(3)
     assert traces[:10] == cp.Traces(THETA, traces.pressure[:10])
     assert traces[::-1].pressure[0, 0] == traces.pressure[-1, 0]
-    assert traces.without([0, -1]) == cp.Traces(THETA, traces.pressure[1:-1])
-    assert traces.without(int(np.int64(3))) == traces.without([3])
+    assert traces.without_cycles([0, -1]) == cp.Traces(THETA, traces.pressure[1:-1])
+    assert traces.without_cycles(int(np.int64(3))) == traces.without_cycles([3])
     for call, message in (
         (lambda: traces[60:], "one cycle must stay"),
-        (lambda: traces.without(range(60)), "one cycle must stay"),
-        (lambda: traces.without([60]), "cycles = 60: give an index from 0 to 59"),
+        (lambda: traces.without_cycles(range(60)), "one cycle must stay"),
+        (lambda: traces.without_cycles([60]), "cycles = 60: give an index from 0 to 59"),
         (lambda: traces[60], "index = 60: give an index from 0 to 59"),
         (lambda: cp.prepare_trace(traces, CYLINDER, leave_out=[61]), "leave_out = 61: give"),
         (lambda: cp.prepare_trace(traces, CYLINDER, leave_out="all"), "leave_out = 'all': give"),  # type: ignore[arg-type]

@@ -13,7 +13,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.analysis.geometry import geometry
-from crankpin.plot.crank import PINS, UNBALANCES, WEIGHTS
+from crankpin.plot.crank import PIN_MARKS, UNBALANCES, WEIGHTS
 from crankpin.plot.section import MOVING
 from crankpin.plot.shapes import listed
 from matplotlib import pyplot as plt
@@ -106,7 +106,7 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
 @any_engine
 def test_the_star_has_every_crankpin_with_its_numbers(engine: cp.Engine) -> None:
     ax = engine.plot(kind="star", theta_deg=30)
-    _, *pins = map(middle, outlines(ax, PINS))
+    _, *pins = map(middle, outlines(ax, PIN_MARKS))
     at = geometry(engine, 30.0).crankpin
     for place in at:
         assert min(abs(place - pin) for pin in pins) < 1e-8 * abs(place)
@@ -129,7 +129,7 @@ def test_each_of_several_cranks_has_a_star_and_a_line_of_its_own() -> None:
     at = geometry(engine, theta)
     arms = at.crankpin - at.axis
     ax = engine.plot(kind="star", theta_deg=theta)
-    first, second, *pins = map(middle, outlines(ax, PINS))
+    first, second, *pins = map(middle, outlines(ax, PIN_MARKS))
     assert first == 0.0
     assert second.real > 0.1
     centres = np.array([first, first, second, second])
@@ -141,7 +141,7 @@ def test_each_of_several_cranks_has_a_star_and_a_line_of_its_own() -> None:
     towards = float(np.degrees(np.angle(weight.mean() - second)))
     assert towards == pytest.approx(30.0 - theta, abs=5.0)
     side = engine.plot(kind="side", theta_deg=theta)
-    lines = [middle(each).imag for each in outlines(side, PINS)[:2]]
+    lines = [middle(each).imag for each in outlines(side, PIN_MARKS)[:2]]
     assert lines[0] == 0.0
     assert lines[1] < -0.1
     assert {"main crank", "crank 1 −1×"} <= set(words(side))
@@ -171,7 +171,7 @@ def _numbers(text: str) -> set[int]:
 @any_engine
 def test_the_side_view_has_pins_at_their_heights_and_places(engine: cp.Engine) -> None:
     ax = engine.plot(kind="side", theta_deg=70)
-    _, *pins = map(middle, outlines(ax, PINS))
+    _, *pins = map(middle, outlines(ax, PIN_MARKS))
     at = geometry(engine, 70.0).crankpin
     span = np.ptp(engine.z) or 1.0
     for k, place in enumerate(at):
@@ -184,7 +184,7 @@ def test_the_side_view_has_pins_at_their_heights_and_places(engine: cp.Engine) -
 
 def test_a_pin_alone_on_its_throw_is_drawn_at_its_z() -> None:
     engine = cp.Engine.preset("i5")
-    _, *pins = map(middle, outlines(engine.plot(kind="side"), PINS))
+    _, *pins = map(middle, outlines(engine.plot(kind="side"), PIN_MARKS))
     assert [pin.real for pin in pins] == pytest.approx(engine.z.tolist(), abs=1e-12)
 
 

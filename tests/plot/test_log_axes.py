@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from crankpin.plot.style import SERIES
-from crankpin.plot.sweep import KINDS
+from crankpin.plot.sweep import SWEEP_PICTURES
 from matplotlib.colors import LogNorm
 from support import in_turn
 
@@ -52,7 +52,7 @@ SPEEDS = cp.sweep(V6, rpm=[1000, 2000, 4000], orders=[1, 2])
 SWEEPS = {"curves": SWEPT, "parts": SWEPT, "map": GRID, "orders": SPEEDS}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", SWEEP_PICTURES)
 def test_every_kind_of_a_sweep_has_a_logarithmic_scale_or_says_why_not(kind: Any) -> None:  # noqa: ANN401 - a word
     if kind == "bars":
         engines = cp.sweep([V6, V6], rpm=3000, orders=[1, 2])

@@ -13,7 +13,7 @@ import pytest
 from crankpin._support import drawing
 from crankpin.plot.firing import STROKE_COLOURS
 from crankpin.plot.style import is_dark
-from crankpin.plot.table import WITHOUT
+from crankpin.plot.table import WITHOUT_PICTURE
 from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
@@ -61,7 +61,7 @@ def test_every_class_with_a_picture_is_drawn(monkeypatch: pytest.MonkeyPatch) ->
             plot()
     public = {getattr(module, name) for module in (cp, cp.results) for name in module.__all__}
     painters = {inspect.unwrap(painter(each)) for each in public if hasattr(each, "plot")}
-    assert painters - set(map(painter, WITHOUT)) == set(map(painter, drawn))
+    assert painters - set(map(painter, WITHOUT_PICTURE)) == set(map(painter, drawn))
 
 
 class NotDrawnError(Exception):

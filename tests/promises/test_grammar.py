@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 plt = pytest.importorskip("matplotlib.pyplot")
-from crankpin.plot.table import WITHOUT  # noqa: E402 - it needs matplotlib
+from crankpin.plot.table import WITHOUT_PICTURE  # noqa: E402 - it needs matplotlib
 from matplotlib.text import Text  # noqa: E402
 
 every_name = in_turn("name", RESULTS)
@@ -59,7 +59,7 @@ def test_the_grammar_is_written_once() -> None:
 @every_name
 def test_every_one_has_a_picture_or_a_reason(name: str) -> None:
     value = RESULTS[name]
-    if type(value) in WITHOUT or name == "Sweep of one":
+    if type(value) in WITHOUT_PICTURE or name == "Sweep of one":
         with pytest.raises(cp.InputError, match=r"has no picture|is of one point"):
             value.plot()
         assert not plt.get_fignums()

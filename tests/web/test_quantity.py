@@ -38,7 +38,7 @@ def test_every_unit_that_the_library_reads(ask: Ask) -> None:
     texts = [(f"3.1 {word}", unit, "") for word in words for unit in ("m", "kg")]
     got = read(ask, texts)
     for (text, unit, _), (value, _) in zip(texts, got, strict=True):
-        factor = units.exact(text[4:], arguments.UNITS[unit])
+        factor = units.exact(text[4:], arguments.TYPED_UNITS[unit])
         expected = None if factor is None else float(Decimal("3.1") * factor)
         assert value == expected, text
 
@@ -52,13 +52,15 @@ def test_numbers_are_the_library_s_to_the_last_bit(ask: Ask) -> None:
         number = f"{digits[:point] or '0'}.{digits[point:]}" if chance.random() < 0.8 else digits
         number += str(chance.choice(["", "", "e-3", "E+2"]))
         unit = str(chance.choice(["m", "kg"]))
-        word = chance.choice([w for w in units.SYMBOLS if units.exact(w, arguments.UNITS[unit])])
+        word = chance.choice(
+            [w for w in units.SYMBOLS if units.exact(w, arguments.TYPED_UNITS[unit])]
+        )
         sign, gap = str(chance.choice(["", "-", "+"])), str(chance.choice(["", " "]))
         cases.append((sign + number, gap, str(word), unit))
     got = read(ask, [(f"{number}{gap}{word}", unit, "") for number, gap, word, unit in cases])
     for (number, _, word, unit), (value, _) in zip(cases, got, strict=True):
         assert value is not None
-        factor = units.exact(word, arguments.UNITS[unit])
+        factor = units.exact(word, arguments.TYPED_UNITS[unit])
         assert factor is not None
         assert float(value) == float(Decimal(number) * factor), (number, word)
 

@@ -22,7 +22,7 @@ import pytest
 from crankpin import _core
 from crankpin.model import presets
 from crankpin.model.builders import FANS
-from crankpin.model.checks import UNITS
+from crankpin.model.checks import UNITS_ASSUMED
 from crankpin.view.figures import figures
 from support.core_in_page import Ask, Calls
 from support.several_cranks import fired_engine, random_engine
@@ -483,7 +483,7 @@ def test_what_is_warned_of_is_the_librarys(ask: Ask, tmp_path: Path) -> None:
         said = [f"{each.message}" for each in caught]
         # Of angles that are no texts the library speaks besides, and of its own argument.
         theirs = " ".join(each for each in said if "radians" not in each)
-        theirs = theirs.replace(UNITS, "").replace(": tdc_deg=…", "")
+        theirs = theirs.replace(UNITS_ASSUMED, "").replace(": tdc_deg=…", "")
         for each in ours:
             assert each["message"] in theirs, (each, theirs)
             theirs = theirs.replace(each["message"], "", 1)

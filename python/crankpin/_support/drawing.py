@@ -14,7 +14,7 @@ from crankpin._support import inputs, lazy, optional
 
 _UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
-PICTURES = "crankpin.plot"
+PICTURES_PACKAGE = "crankpin.plot"
 """Package of the pictures, which register themselves; it imports matplotlib."""
 finishers: list[Callable[[Any], object]] = []
 """Change the figure of a picture that has been drawn."""
@@ -28,7 +28,7 @@ def draw(result: object, ax: object = None, **options: object) -> Any:  # noqa: 
     """
     optional.library("matplotlib")
     plt = optional.library("matplotlib.pyplot")
-    lazy.imported(PICTURES)
+    lazy.imported(PICTURES_PACKAGE)
     figure = options.get("figure")
     takes_figure = "figure" in inspect.signature(picture.dispatch(type(result))).parameters
     if "figure" in options and not takes_figure:  # a property of lines too, which is not to be set
@@ -74,16 +74,18 @@ class Plot:
         """Signature: the axes, the figure of several panels, and the options of the picture."""
         drawing = _drawing(self._kind)
         keywords = [*inspect.signature(drawing).parameters.values()][1:]
-        of_all = [name for name in FIRST if any(name == each.name for each in keywords)]
+        of_all = [
+            name for name in FIRST_OPTIONS if any(name == keyword.name for keyword in keywords)
+        ]
         places = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
         places = places if self._result is None else []
         parameters = [
             *places,
             inspect.Parameter("ax", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
             *(
-                each.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-                for each in sorted(keywords, key=lambda each: each.name not in of_all)
-                if each.name != "ax" and each.kind is not each.VAR_KEYWORD
+                keyword.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+                for keyword in sorted(keywords, key=lambda keyword: keyword.name not in of_all)
+                if keyword.name != "ax" and keyword.kind is not keyword.VAR_KEYWORD
             ),
             inspect.Parameter("style", inspect.Parameter.VAR_KEYWORD),
         ]
@@ -100,7 +102,7 @@ class Plot:
         several = "figure" in parameters
         entries = {"**style" if name == "style" else name: "" for name in parameters}
         entries.pop("self", None)
-        entries |= {name: text for name, text in SHARED.items() if name in entries}
+        entries |= {name: text for name, text in SHARED_OPTIONS.items() if name in entries}
         for entry in re.split(r"\n(?=\S)", sections.pop("Parameters", "").strip()):
             entries |= {entry.partition(" : ")[0]: entry} if entry else {}
         texts = {
@@ -115,9 +117,9 @@ class Plot:
 
 SECTION = re.compile(r"^([A-Z]\w+)\n-{3,}\n", re.MULTILINE)
 """Title of a section of a docstring."""
-FIRST = ("figure", "kind")
+FIRST_OPTIONS = ("figure", "kind")
 """Options that stand before all others in signatures."""
-SHARED = {
+SHARED_OPTIONS = {
     "ax": "ax : matplotlib.axes.Axes, optional\n    Axes to draw on; by default new ones.",
     "figure": "figure : Figure or SubFigure, optional\n"
     "    Figure or SubFigure for several panels; by default a new one.",
@@ -141,7 +143,7 @@ RAISED = tuple(
 def _drawing(kind: type) -> Callable[..., Any]:
     """Return the function that draws a class; without matplotlib a description of any."""
     try:
-        lazy.imported(PICTURES)
+        lazy.imported(PICTURES_PACKAGE)
     except ImportError:
         return picture.dispatch(object)
     return picture.dispatch(kind)
@@ -159,7 +161,7 @@ def inline_svg(result: object) -> str | None:
         optional.library("matplotlib")
     except ImportError:
         return None
-    lazy.imported(PICTURES)
+    lazy.imported(PICTURES_PACKAGE)
     return svg(result)
 
 

@@ -35,7 +35,7 @@ ROWS = 2**12
 """Rows that are written at once."""
 FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]|[\t\n]")
 """Beginning of a text that a spreadsheet takes for a formula."""
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
+PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 
 
 class Frames(Mapping[str, "Table"]):
@@ -76,14 +76,14 @@ class Frames(Mapping[str, "Table"]):
 
     def text(self, rows: int | None = None) -> str:
         """Return the tables as text below each other, the first rows of each or all."""
-        return "\n\n".join(each.text(rows) for each in self._shown(rows))
+        return "\n\n".join(table.text(rows) for table in self._shown(rows))
 
     def __repr__(self) -> str:
         return self.text(SHOWN)
 
     def _repr_html_(self) -> str:
         rows = SHOWN_IN_NOTEBOOKS
-        return "".join(each.html(rows) for each in self._shown(rows))
+        return "".join(table.html(rows) for table in self._shown(rows))
 
 
 class Framed:
@@ -190,8 +190,8 @@ class Framed:
         """
         table = self._exported(frame, units)
         data = {
-            head: each.data if isinstance(each.data, np.ndarray) else list(each.data)
-            for head, each in table._distinct()
+            head: column.data if isinstance(column.data, np.ndarray) else list(column.data)
+            for head, column in table._distinct()
         }
         data_frame: pd.DataFrame = optional.library("pandas").DataFrame(data)
         data_frame.attrs.update(labels.attributes(table.loads))
@@ -232,8 +232,8 @@ class Framed:
             return optional.split_complex(whole) if split else whole
         table = self._exported(FIRST if frame is None else frame, units)
         arrays = {
-            head: ("row", each._array(), {"units": each.unit} if each.unit else {})
-            for head, each in table._distinct(units=False)
+            head: ("row", column._array(), {"units": column.unit} if column.unit else {})
+            for head, column in table._distinct(units=False)
         }
         attributes = {"title": table.title} | labels.attributes(table.loads)
         rows = optional.dataset(arrays, {}, attributes)
@@ -328,10 +328,12 @@ def in_units(dataset: xr.Dataset, setting: unit_names.Setting) -> xr.Dataset:
     """Return a Dataset in the units of a setting, coordinates included."""
     for name, array in dataset.variables.items():
         unit = array.attrs.get("units", "")
-        shown = unit_names.convert(unit, setting)
-        if shown.unit != unit:
-            attributes = {**array.attrs, "units": shown.unit}
-            dataset = dataset.assign({name: (array.dims, array.values * shown.factor, attributes)})
+        converted = unit_names.convert(unit, setting)
+        if converted.unit != unit:
+            attributes = {**array.attrs, "units": converted.unit}
+            dataset = dataset.assign(
+                {name: (array.dims, array.values * converted.factor, attributes)}
+            )
     return dataset
 
 
@@ -340,7 +342,7 @@ def _csv(table: Table) -> Iterator[str]:
     yield _lines([map(_inert, table.header)])
     for start in range(0, len(table), ROWS):
         part = slice(start, start + ROWS)
-        columns = (map(_inert, each._listed(part)) for each in table.columns)
+        columns = (map(_inert, column._listed(part)) for column in table.columns)
         yield _lines(zip(*columns, strict=True))
 
 
@@ -356,7 +358,7 @@ def _inert(value: object) -> object:
     if not isinstance(value, str):
         return value
     text = without_controls(value)
-    return f"'{text}" if FORMULA.match(text) and not NUMBER.fullmatch(text) else text
+    return f"'{text}" if FORMULA.match(text) and not PLAIN_NUMBER.fullmatch(text) else text
 
 
 def _written(text: str | Iterable[str], path: str | Path | None, ending: str) -> str | None:

@@ -40,7 +40,7 @@ MOST_NUMBERS = _core.LONGEST_AXIS
 LARGEST_RESULT = _core.LARGEST_RESULT
 """Maximum length of an array: a gibibyte."""
 
-PIECE = 2**16
+PIECE_NUMBERS = 2**16
 """Numbers converted or copied between checks for Ctrl-C."""
 
 SINGLES = (np.float16, np.float32)
@@ -135,9 +135,9 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
-    if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE:
+    if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE_NUMBERS:
         return _piece(values)
-    pieces = [_piece(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
+    pieces = [_piece(values[k : k + PIECE_NUMBERS]) for k in range(0, len(values), PIECE_NUMBERS)]
     if len({piece.shape[1:] for piece in pieces}) > 1:
         raise ValueError("lists of different lengths")
     # Not by concatenate, which Ctrl-C does not interrupt.
@@ -145,7 +145,7 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
         (len(values), *pieces[0].shape[1:]), np.result_type(*{piece.dtype for piece in pieces})
     )
     for k, piece in enumerate(pieces):
-        joined[k * PIECE : (k + 1) * PIECE] = piece
+        joined[k * PIECE_NUMBERS : (k + 1) * PIECE_NUMBERS] = piece
     return joined
 
 
@@ -158,10 +158,10 @@ def _piece(values: ArrayLike) -> NDArray[Any]:
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:
     """Return a copy in doubles; a single is read as the shortest decimal of its own precision."""
     single = values.dtype in SINGLES
-    if values.size <= PIECE:
+    if values.size <= PIECE_NUMBERS:
         return np.array(values.astype(str) if single else values, dtype=np.float64)
     copy = np.empty(values.shape)
-    rows = max(1, PIECE * len(values) // values.size)
+    rows = max(1, PIECE_NUMBERS * len(values) // values.size)
     for k in range(0, len(values), rows):
         piece = values[k : k + rows]
         copy[k : k + rows] = piece.astype(str) if single else piece
@@ -273,14 +273,14 @@ def listed_numbers(name: str, values: ArrayLike) -> list[float]:
     array = vector(name, values)
     if array.size > MOST_ITEMS:
         raise faulty(name, f"has {array.size} numbers", f"give {MOST_ITEMS} at most")
-    listed: list[float] = array.tolist()
-    return listed
+    numbers: list[float] = array.tolist()
+    return numbers
 
 
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     """Return one float for each item; a scalar is that of all."""
-    listed = listed_numbers(name, values)
-    return listed if np.ndim(values) else listed * count
+    numbers = listed_numbers(name, values)
+    return numbers if np.ndim(values) else numbers * count
 
 
 def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
@@ -394,10 +394,10 @@ def one_of(
 
 def nearest(value: object, words: Iterable[str]) -> str:
     """Return ``; did you mean "moment"?`` for a slip in one of many words, else nothing."""
-    listed = list(words)
-    if not isinstance(value, str) or len(listed) < MANY_WORDS:
+    choices = list(words)
+    if not isinstance(value, str) or len(choices) < MANY_WORDS:
         return ""
-    matches = difflib.get_close_matches(value[:80], listed, 1)
+    matches = difflib.get_close_matches(value[:80], choices, 1)
     return f"; did you mean {_quoted(matches[0])}?" if matches else ""
 
 
@@ -416,12 +416,12 @@ def items(name: str, values: object, hint: str) -> list[Any]:
         raise rejected(name, values, hint)
     try:
         is_endless = type(values) not in (list, tuple)
-        listed = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
+        taken = list(itertools.islice(values, MOST_ITEMS + 1) if is_endless else values)
     except (TypeError, ValueError) as error:
         raise rejected(name, values, f"{hint} ({reason(error)})") from None
-    if len(listed) > MOST_ITEMS:
+    if len(taken) > MOST_ITEMS:
         raise faulty(name, f"has more than {MOST_ITEMS} entries", hint)
-    return listed
+    return taken
 
 
 def angle(name: str, value: object) -> str:
@@ -437,16 +437,16 @@ def angle(name: str, value: object) -> str:
         return angle(name, value[()])
     elif isinstance(value, (Decimal, np.longdouble)):
         value = str(value)
-    known = text(name, value, "give degrees") if isinstance(value, str) else number(name, value)
-    return _core.exact_angle(name, known)
+    checked = text(name, value, "give degrees") if isinstance(value, str) else number(name, value)
+    return _core.exact_angle(name, checked)
 
 
 def angles(name: str, values: object) -> list[str]:
     """Return a list of angles."""
     if isinstance(values, (memoryview, array_module.array)) or hasattr(values, "__array__"):
         values = np.asarray(values)  # whose items keep their precision
-    listed = items(name, values, "give a list of degrees")
-    return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
+    degrees = items(name, values, "give a list of degrees")
+    return [angle(f"{name}[{k}]", value) for k, value in enumerate(degrees)]
 
 
 def degrees(angle: Angle) -> float:
@@ -473,21 +473,23 @@ def firing_order(
     """
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if not isinstance(values, str):
-        listed = items(name, values, hint)
-        if any(isinstance(each, (float, np.floating)) for each in listed):
-            numbers = [float(each) if isinstance(each, np.floating) else each for each in listed]
+        entries = items(name, values, hint)
+        if any(isinstance(value, (float, np.floating)) for value in entries):
+            numbers = [
+                float(value) if isinstance(value, np.floating) else value for value in entries
+            ]
             hint = f"{hint}; firing intervals are intervals_deg of Engine.from_firing_order"
             raise rejected(name, numbers, hint)
-        return "-".join(shorten(number) for number in listed)
+        return "-".join(shorten(number) for number in entries)
     typed = text(name, values, hint)
     plain = typed.strip()
-    if len(plain) <= len(DIGITS) and sorted(plain) == list(DIGITS[: len(plain)]):
+    if len(plain) <= len(SINGLE_DIGITS) and sorted(plain) == list(SINGLE_DIGITS[: len(plain)]):
         return "-".join(plain)
     by_banks = banks and _LETTERS.search(plain)
     return _by_banks(name, typed, banks, dummies) if by_banks else typed
 
 
-DIGITS = "123456789"
+SINGLE_DIGITS = "123456789"
 """Numbers of cylinders that are written without signs between them."""
 _LETTERS = re.compile(
     r"(?:(?P<before>[A-Za-z])(?P<number>\d+)|(?P<turned>\d+)(?P<after>[A-Za-z]))\b"
@@ -509,8 +511,12 @@ def _by_banks(name: str, typed: str, banks: Sequence[int], dummies: Collection[i
         place = int(match["number"] or match["turned"])
         members = [k for k, bank in enumerate(banks, start=1) if bank == of_letter.get(letter)]
         if not 1 <= place <= len(members):
-            known = ", ".join(f"{each} ({banks.count(bank)})" for each, bank in of_letter.items())
-            raise rejected(name, typed, f"there is no {match[0]}; banks and cylinders are {known}")
+            banks_text = ", ".join(
+                f"{letter} ({banks.count(bank)})" for letter, bank in of_letter.items()
+            )
+            raise rejected(
+                name, typed, f"there is no {match[0]}; banks and cylinders are {banks_text}"
+            )
         return str(members[place - 1])
 
     by_numbers = _LETTERS.sub(number, typed)
@@ -553,18 +559,18 @@ def _orders(
         raise rejected(name, values, f'{hint}, or "auto"')
     if isinstance(values, np.ndarray) and values.size <= MOST_ITEMS:
         values = values.tolist()  # Python's numbers, read in half the time of NumPy's
-    listed = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
+    entries = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
     try:
-        result = [one(each) for each in listed]
+        result = [one(value) for value in entries]
     except (TypeError, ValueError, OverflowError):
         # Of NumPy's infinite numbers a remainder would warn.
-        fractions = any(isinstance(each, float) and float(each) % 1.0 > 0.0 for each in listed)
+        fractions = any(isinstance(value, float) and float(value) % 1.0 > 0.0 for value in entries)
         if fractions and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
         raise rejected(name, values, hint) from None
-    for each in result:
-        if not 0 < each <= _core.HIGHEST_ORDER:
-            raise rejected(name, each, f"{hint}, up to {_core.HIGHEST_ORDER}")
+    for value in result:
+        if not 0 < value <= _core.HIGHEST_ORDER:
+            raise rejected(name, value, f"{hint}, up to {_core.HIGHEST_ORDER}")
     return result
 
 
@@ -578,10 +584,10 @@ def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
     return _given(half_orders(values, name), name, "numbers")
 
 
-def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:
-    if listed is None:
+def _given(orders: list[Number] | None, name: str, what: str) -> list[Number]:
+    if orders is None:
         raise rejected(name, "auto", f"give {what} here, such as [1, 2]")
-    return listed
+    return orders
 
 
 def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
@@ -601,12 +607,12 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
     hint = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
     if not isinstance(values, Mapping):
         raise rejected("spectrum", values, hint)
-    listed = explicit_orders(values, "spectrum")
+    orders = explicit_orders(values, "spectrum")
     try:
         for amplitude in values.values():
             if type(amplitude) in _BOOLEANS or isinstance(amplitude, str):
                 raise TypeError("text or a truth value is not a number")
-        return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
+        return [(n, complex(values[key])) for n, key in zip(orders, values, strict=True)]
     except (TypeError, ValueError, OverflowError) as error:
         raise rejected("spectrum", values, f"{hint} ({reason(error)})") from None
 
@@ -662,7 +668,7 @@ def only_one_of(**values: object) -> None:
     """Reject two arguments unless exactly one of them is given."""
     if sum(value is not None for value in values.values()) != 1:
         name, value = values.popitem()
-        one = ", ".join(f"{each}=…" for each in [*values, name])
+        one = ", ".join(f"{argument}=…" for argument in [*values, name])
         raise rejected(name, value, f"give one of {one}")
 
 

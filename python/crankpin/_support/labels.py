@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 UNIT_RPM = 1.0 / _core.angular_speed(1.0)
 """Crank speed at which ω is 1 rad/s."""
 
-TURNING = {"forward": "with the crank", "backward": "against the crank"}
+TURNING_WORDS = {"forward": "with the crank", "backward": "against the crank"}
 """Part of a plane vector → how it turns."""
 
 XARRAY_UNITS = {
@@ -184,7 +184,7 @@ def dead_text(cycles: Iterable[object]) -> str:
 def loads_of(engines: Sequence[Titled], titles: Sequence[str]) -> str:
     """Return which gas pressure counts in results of several engines, once where it is the same."""
     loads = [engine.loads_counted for engine in engines]
-    further = [without_gas(each) for each in loads]
+    further = [without_gas(text) for text in loads]
     return Loads(_once(loads, titles), _once(further, titles))
 
 
@@ -196,7 +196,7 @@ def _once(texts: Sequence[str], titles: Sequence[str]) -> str:
     for title, text in zip(titles, texts, strict=True):
         if text:
             names.setdefault(text, []).append(one_line(title))
-    return "; ".join(f"{text} ({cut(', '.join(each), 40)})" for text, each in names.items())
+    return "; ".join(f"{text} ({cut(', '.join(engines), 40)})" for text, engines in names.items())
 
 
 def in_words(loads: str) -> str:

@@ -10,7 +10,7 @@ from crankpin._support import labels
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-NUMBER = re.compile(r"(-?[\d.]+)(?:e([-+]?\d+))?", re.ASCII)
+LATEX_NUMBER = re.compile(r"(-?[\d.]+)(?:e([-+]?\d+))?", re.ASCII)
 
 SYMBOL = re.compile(r"(\|[A-Za-z](?:_[a-z])?\||\b[A-Z]_[a-z]\b)")
 """Symbols of quantities as heads have them."""
@@ -25,7 +25,7 @@ GREEK = (
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda",
     "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
 )  # fmt: skip
-SYMBOLS = {
+LATEX_SYMBOLS = {
     "−": "-", "±": r"\pm", "·": r"\cdot", "×": r"\times", "→": r"\rightarrow",
     "≠": r"\neq", "≤": r"\leq", "≥": r"\geq", "√": r"\surd", "Ω": r"\Omega", "Δ": r"\Delta",
     "Σ": r"\Sigma", "°": r"^\circ", "½": r"\frac{1}{2}", "∞": r"\infty", "′": r"^\prime",
@@ -36,7 +36,9 @@ SYMBOLS = {
 }  # fmt: skip
 """Characters that fonts of text lack."""
 ESCAPES = str.maketrans(
-    SPECIAL | {character: f"${command}$" for character, command in SYMBOLS.items()} | {"–": "--"}
+    SPECIAL
+    | {character: f"${command}$" for character, command in LATEX_SYMBOLS.items()}
+    | {"–": "--"}
 )
 
 
@@ -53,7 +55,7 @@ def in_mathematics(text: str) -> str:
 
 def _cell(text: str) -> str:
     """Return a cell; a number with a sign or an exponent in mathematics."""
-    match = NUMBER.fullmatch(text)
+    match = LATEX_NUMBER.fullmatch(text)
     if match is None:
         return escaped(text)
     figure, exponent = match.groups()

@@ -65,7 +65,9 @@ def _legal(name: str, others: Container[str]) -> str:
     if not LEGAL.fullmatch(name):
         legal = re.sub(r"[^0-9A-Za-z]+", "_", name).strip("_") or "value"
     numbered = (f"{legal}_{k}" for k in itertools.count(2))
-    return next(each for each in itertools.chain([legal], numbered) if each not in others)
+    return next(
+        candidate for candidate in itertools.chain([legal], numbered) if candidate not in others
+    )
 
 
 def split_complex(whole: xr.Dataset) -> xr.Dataset:

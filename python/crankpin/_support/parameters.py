@@ -132,9 +132,9 @@ class Parameter(NamedTuple):
     @property
     def choices(self) -> tuple[str, ...]:
         """All that is taken, if that is a set; else empty."""
-        if (listed := re.match(r"\{([^{}]*)\}(?= or sequence of these|$)", self.type)) is None:
+        if (braces := re.match(r"\{([^{}]*)\}(?= or sequence of these|$)", self.type)) is None:
             return self.words if re.fullmatch(r'"\w+"', self.type) else ()
-        return self.words or tuple(listed[1].split(", "))
+        return self.words or tuple(braces[1].split(", "))
 
 
 @functools.cache

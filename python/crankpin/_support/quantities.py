@@ -53,8 +53,8 @@ class Kind(NamedTuple):
 
 
 QUANTITIES = {
-    each.name: each
-    for each in (
+    kind.name: kind
+    for kind in (
         Kind("force", "shaking force", ("|F_x|", "|F_y|"), ("along x", "along y"), "N", "kg·m"),
         Kind("moment", "rocking moment", ("|M_x|", "|M_y|"), ("about x (pitch)", "about y (yaw)"),
              "N·m", "kg·m²"),
@@ -85,11 +85,11 @@ def parts_of(name: str, names: Sequence[str]) -> tuple[str, ...]:
     if "." in name or not set(names) - {"inertia"}:
         return ()
     if QUANTITIES[name].planar:
-        names = [each for each in names if each != "gas"]
+        names = [name for name in names if name != "gas"]
         if not set(names) - {"inertia"}:
             return ()
-    known = [each for each in PART_WORDS if each in names]
-    return (*(f"{name}.{each}" for each in (*known, *(n for n in names if n not in PART_WORDS))),)
+    usual = [part for part in PART_WORDS if part in names]
+    return (*(f"{name}.{part}" for part in (*usual, *(n for n in names if n not in PART_WORDS))),)
 
 
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
@@ -100,8 +100,8 @@ COMPONENTS = ("x", "y", "forward", "backward")
 
 _ACROSS = ("|F_x|", "|F_y|"), ("along x", "along y")
 LOADS = {
-    each.name: each
-    for each in (
+    kind.name: kind
+    for kind in (
         Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m", ("cylinder",)),
         Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m", ("cylinder",)),
         Kind("main", "main bearing", *_ACROSS, "N", "kg·m", ("main_bearing",)),
@@ -125,8 +125,8 @@ INSIDE = LOADS | {
 _XYZ = ("|F_x|", "|F_y|", "|F_z|"), ("along x", "along y", "along z")
 _LOAD = ("|L|",), ("of a component",)
 MOUNTED = {
-    each.name: each
-    for each in (
+    kind.name: kind
+    for kind in (
         Kind("body_force", "force on the body", *_XYZ, "N"),
         Kind("mount_force", "force of a mount", *_XYZ, "N", dims=("mount",)),
         Kind("ground_force", "force on the ground", *_XYZ, "N"),
@@ -147,8 +147,8 @@ MOUNTED = {
 """Name of a quantity of a powertrain on its mounts → its entry."""
 
 MOTIONS = {
-    each.name: each
-    for each in (
+    kind.name: kind
+    for kind in (
         Kind("displacement", "displacement", *_XYZ, "m"),
         Kind("velocity", "velocity", *_XYZ, "m/s"),
         Kind("acceleration", "acceleration", *_XYZ, "m/s²"),
@@ -158,8 +158,8 @@ MOTIONS = {
 
 _BY_CYLINDER: dict[str, Any] = {"dims": ("cylinder",), "real": True, "without": ("rpm", "order")}
 EXCITATIONS = {
-    each.name: each
-    for each in (
+    kind.name: kind
+    for kind in (
         QUANTITIES["crank_torque"]._replace(dims=("cylinder",)),
         Kind("mean_torque", "mean torque", ("T",), ("on the crank",), "N·m", **_BY_CYLINDER),
         Kind("reciprocating_inertia", "mean moment of inertia of piston and rod", ("J",),
@@ -170,8 +170,10 @@ EXCITATIONS = {
 }  # fmt: skip
 """Name of a quantity of a torsional excitation → its entry."""
 
-POINTS = {name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()}
-POINTS |= {
+OF_POINTS = {
+    name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()
+}
+OF_POINTS |= {
     "irregularity": Kind("irregularity", "irregularity", ("δ",), ("of the speed",), "", real=True),
     "swing_deg": Kind("swing_deg", "swing", ("swing",), ("of the crank",), "°", real=True),
 }

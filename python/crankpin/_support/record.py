@@ -137,7 +137,7 @@ class Record:
     """None, so that NumPy leaves comparison and arithmetic with arrays to the record."""
 
     def _compared(self) -> tuple[Any, ...]:
-        return tuple(getattr(self, each.name) for each in self._fields if each.compare)
+        return tuple(getattr(self, field.name) for field in self._fields if field.compare)
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, np.ndarray):
@@ -159,8 +159,8 @@ class Record:
         return self
 
     def __repr__(self) -> str:
-        shown = ((each.name, getattr(self, each.name)) for each in self._fields if each.repr)
-        values = ", ".join(f"{name}={value!r}" for name, value in shown)
+        pairs = ((field.name, getattr(self, field.name)) for field in self._fields if field.repr)
+        values = ", ".join(f"{name}={value!r}" for name, value in pairs)
         return f"{type(self).__name__}({values})"
 
 
@@ -185,7 +185,7 @@ class Input(Record):
         InputError
             If there is no such field, or a value is out of range.
         """
-        names = [each.name for each in self._fields if each.init]
+        names = [field.name for field in self._fields if field.init]
         for name in changes:
             inputs.one_of("replace", name, names)
         return changed(self, **changes)
@@ -202,10 +202,10 @@ class Listed(Generic[Item]):
     """Function that makes such records of one item or more; empty if anyone may, of any."""
 
     def __post_init__(self) -> None:
-        listed = self._listed()
-        sound = isinstance(listed, tuple) and all(isinstance(each, self._item) for each in listed)
-        if self._maker and not (sound and listed):
-            raise inputs.rejected(self._items, listed, f"use {self._maker}")
+        entries = self._listed()
+        sound = isinstance(entries, tuple) and all(isinstance(item, self._item) for item in entries)
+        if self._maker and not (sound and entries):
+            raise inputs.rejected(self._items, entries, f"use {self._maker}")
         super().__post_init__()  # type: ignore[misc] # of the record that this is mixed into
 
     def _listed(self) -> tuple[Item, ...]:
@@ -221,9 +221,9 @@ class Listed(Generic[Item]):
     def __getitem__(self, place: slice) -> tuple[Item, ...]: ...
 
     def __getitem__(self, place: int | slice) -> Item | tuple[Item, ...]:
-        listed = self._listed()
-        key: Any = item_key(place, len(listed))
-        return listed[key]  # type: ignore[no-any-return]
+        entries = self._listed()
+        key: Any = item_key(place, len(entries))
+        return entries[key]  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._listed())
@@ -263,14 +263,14 @@ def read_only(values: Item) -> Item:
     elif type(values) in (tuple, list):
         frozen = tuple(map(read_only, values))  # type: ignore[call-overload]
     elif isinstance(values, Mapping):
-        frozen = MappingProxyType({key: read_only(each) for key, each in values.items()})
+        frozen = MappingProxyType({key: read_only(inner) for key, inner in values.items()})
     return frozen  # type: ignore[no-any-return]
 
 
 def _plain(value: object) -> object:
     """Return a value that can be pickled: read-only mappings cannot."""
     if isinstance(value, Mapping):
-        return {key: _plain(each) for key, each in value.items()}
+        return {key: _plain(inner) for key, inner in value.items()}
     return tuple(map(_plain, value)) if type(value) is tuple else value
 
 
@@ -298,9 +298,9 @@ def _hashable(value: object) -> object:
 def _values(record: Record) -> dict[str, Any]:
     """Return the values of the fields that the constructor takes, exact where one says so."""
     return {
-        each.name: getattr(record, each.metadata.get("exact", each.name))
-        for each in record._fields
-        if each.init
+        field.name: getattr(record, field.metadata.get("exact", field.name))
+        for field in record._fields
+        if field.init
     }
 
 

@@ -78,8 +78,10 @@ class Column(Record):
 
     def cells(self, rows: int | None = None) -> list[str]:
         """Return the first values, or all, as text, numbers rounded and exact zeros as 0."""
-        listed = self._listed(slice(rows))
-        return [_cell(each) if isinstance(each, str) else self._rounded(each) for each in listed]
+        values = self._listed(slice(rows))
+        return [
+            _cell(value) if isinstance(value, str) else self._rounded(value) for value in values
+        ]
 
     def _rounded(self, value: float | None) -> str:
         if value is None or value != value:  # noqa: PLR0124 - NaN, of any size of number
@@ -96,33 +98,37 @@ class Column(Record):
 
     def _in(self, setting: units.Setting) -> Column:
         """Return the column in the units of a setting."""
-        shown = units.convert(self.unit, setting)
+        converted = units.convert(self.unit, setting)
         if not isinstance(self.data, np.ndarray) and units.Text in {*map(type, self.data)}:
             texts = ((isinstance(cell, str), cell) for cell in self.data)
             cells = (units.shown(cell, setting) if is_text else cell for is_text, cell in texts)
             return changed(self, data=tuple(cells))
-        if shown.unit == self.unit:
+        if converted.unit == self.unit:
             return self
-        values = _times(self.data, shown.factor)
+        values = _times(self.data, converted.factor)
         decimals = self.decimals
         if decimals is not None:
-            decimals = max(0, decimals - round(math.log10(shown.factor)))
+            decimals = max(0, decimals - round(math.log10(converted.factor)))
         return changed(
-            self, data=values, unit=shown.unit, decimals=decimals, least=self.least * shown.factor
+            self,
+            data=values,
+            unit=converted.unit,
+            decimals=decimals,
+            least=self.least * converted.factor,
         )
 
     def _array(self) -> NDArray[Any]:
         """Return the values as an array, NaN where a number is missing."""
         if isinstance(self.data, np.ndarray) and self.data.dtype.kind != "O":
             return self.data
-        return np.array([math.nan if each is None else each for each in self.data])
+        return np.array([math.nan if cell is None else cell for cell in self.data])
 
     @property
     def is_text(self) -> bool:
         """True if all values are texts: they are aligned at their left."""
         if isinstance(self.data, np.ndarray):
             return self.data.dtype.kind == "O"
-        return all(isinstance(each, str) for each in self.data)
+        return all(isinstance(cell, str) for cell in self.data)
 
 
 class Table(Tabled):
@@ -179,11 +185,11 @@ class Table(Tabled):
         Table
             The table.
         """
-        listed = [[label] if isinstance(label, str) else list(label) for label in labels]
+        rows_of_labels = [[label] if isinstance(label, str) else list(label) for label in labels]
         heads = [(head, "") if isinstance(head, str) else head for head in header]
         numbers = [] if rows is None else list(rows.T)
         before, digits = len(heads) - len(numbers), 5 if rows is None else 10
-        texts = zip(*listed, strict=True) if listed else [()] * before
+        texts = zip(*rows_of_labels, strict=True) if rows_of_labels else [()] * before
         columns = [
             Column(name, tuple(values), unit, digits)
             for (name, unit), values in zip(heads, texts, strict=False)
@@ -225,31 +231,31 @@ class Table(Tabled):
         """Return the table in the units of a setting."""
         if not setting:
             return self
-        columns = tuple(each._in(setting) for each in self.columns)
+        columns = tuple(column._in(setting) for column in self.columns)
         distinct = {unit: units.convert(unit, setting) for unit in {*self.row_units}}
-        shown = [distinct[unit] for unit in self.row_units]
-        if shown:
-            columns = tuple(self._by_row(each, shown) for each in columns)
+        converted = [distinct[unit] for unit in self.row_units]
+        if converted:
+            columns = tuple(self._by_row(column, converted) for column in columns)
         return changed(
             self, title=units.shown(self.title, setting), columns=columns,
-            note=units.shown(self.note, setting), row_units=tuple(each.unit for each in shown),
+            note=units.shown(self.note, setting), row_units=tuple(unit.unit for unit in converted),
         )  # fmt: skip
 
-    def _by_row(self, column: Column, shown: Sequence[units.Converted]) -> Column:
+    def _by_row(self, column: Column, converted: Sequence[units.Converted]) -> Column:
         """Return a column without unit, its numbers and units those of each row."""
         if column.unit or column.name in COUNTED:
             return column
         if isinstance(column.data, np.ndarray) and not column.is_text:
-            factors = np.fromiter((new.factor for new in shown), float, len(shown))
+            factors = np.fromiter((new.factor for new in converted), float, len(converted))
             return changed(column, data=_times(column.data, factors))
         values = []
-        for value, unit, new in zip(column.data, self.row_units, shown, strict=True):
-            each = value
+        for value, unit, new in zip(column.data, self.row_units, converted, strict=True):
+            cell = value
             if not isinstance(value, str):
-                each = _times(value, new.factor)
+                cell = _times(value, new.factor)
             elif column.name == "unit" and value == unit:
-                each = new.unit
-            values.append(each)
+                cell = new.unit
+            values.append(cell)
         return changed(column, data=tuple(values))
 
     @property
@@ -300,7 +306,9 @@ class Table(Tabled):
             If the text would take more memory than any result may.
         """
         self._check_text(rows)
-        return [list(row) for row in zip(*(each.cells(rows) for each in self.columns), strict=True)]
+        return [
+            list(row) for row in zip(*(column.cells(rows) for column in self.columns), strict=True)
+        ]
 
     def _check_text(self, rows: int | None = None) -> None:
         """Raise an InputError if the first rows, or all, take too much memory as text."""
@@ -364,7 +372,7 @@ class Table(Tabled):
         """Return the first rows."""
         if rows is None or inputs.whole("rows", rows, 0) >= len(self):
             return self
-        columns = tuple(changed(each, data=each.data[:rows]) for each in self.columns)
+        columns = tuple(changed(column, data=column.data[:rows]) for column in self.columns)
         whole = self.whole or len(self)
         return changed(self, columns=columns, row_units=self.row_units[:rows], whole=whole)
 
@@ -374,7 +382,7 @@ class Table(Tabled):
             yield f"{len(self)} of {self.whole} rows"
         if self.note:
             yield without_controls(self.note)
-        if any(each.least and TINY in each.cells() for each in self.columns):
+        if any(column.least and TINY in column.cells() for column in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
         if self.loads:
             yield labels.in_words(self.loads)
@@ -385,19 +393,19 @@ class Table(Tabled):
         for name in names:
             inputs.one_of("columns", name, numbers, AbsentItemError)
         chosen = {name: numbers[name] for name in names} or numbers
-        beside = [each for head, each in self._distinct(units=False) if head not in numbers]
+        beside = [column for head, column in self._distinct(units=False) if head not in numbers]
         count = len(self)
 
-        def repeated(each: Column) -> Column:
-            return changed(each, data=tuple(each._listed()) * len(chosen))
+        def repeated(column: Column) -> Column:
+            return changed(column, data=tuple(column._listed()) * len(chosen))
 
-        units_of = [each.unit for each in chosen.values() for _ in range(count)]
+        units_of = [column.unit for column in chosen.values() for _ in range(count)]
         if self.row_units:
             units_of = [
-                unit or own
-                for unit, own in zip(units_of, self.row_units * len(chosen), strict=True)
+                unit or of_row
+                for unit, of_row in zip(units_of, self.row_units * len(chosen), strict=True)
             ]
-        values = tuple(value for each in chosen.values() for value in each._listed())
+        values = tuple(value for column in chosen.values() for value in column._listed())
         quantities = tuple(name for name in chosen for _ in range(count))
         columns = (
             *map(repeated, beside),
@@ -410,19 +418,19 @@ class Table(Tabled):
     def _numbers(self) -> dict[str, Column]:
         """Return the columns of numbers by name, without those that name rows."""
         return {
-            head: each
-            for head, each in self._distinct(units=False)
-            if not each.is_text and each.name not in OF_ROWS
+            head: column
+            for head, column in self._distinct(units=False)
+            if not column.is_text and column.name not in OF_ROWS
         }
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""
         seen: set[str] = set()
-        for place, each in enumerate(self.columns):
-            head = each.header if units else each.name
+        for place, column in enumerate(self.columns):
+            head = column.header if units else column.name
             head = f"{head} {place}".strip() if head in seen else head
             seen.add(head)
-            yield head, each
+            yield head, column
 
 
 class Item(Tabled):
@@ -434,7 +442,7 @@ class Item(Tabled):
 
     def _figures(self) -> Mapping[str, object]:
         """Return name → value, or several."""
-        return {each.name: getattr(self, each.name) for each in self._fields if each.repr}
+        return {field.name: getattr(self, field.name) for field in self._fields if field.repr}
 
     @property
     def table(self) -> Table:
@@ -452,7 +460,7 @@ class Item(Tabled):
 def _times(value: Any, factor: float | NDArray[np.float64]) -> Any:  # noqa: ANN401 - a cell, or several
     """Return a number times a factor; other values unchanged."""
     if isinstance(value, tuple):
-        return tuple(_times(each, factor) for each in value)
+        return tuple(_times(inner, factor) for inner in value)
     if isinstance(value, np.ndarray):
         return value * factor if value.dtype.kind in "iuf" else value
     if value is None or isinstance(value, (str, bool)):

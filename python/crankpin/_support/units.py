@@ -24,7 +24,7 @@ ENERGIES = {
 }  # fmt: skip
 """Unit of torque → that of energy beside it, where they have different names."""
 _symbols, _aliases = _core.unit_symbols()
-KINDS = tuple(
+UNITS_BY_KIND = tuple(
     {
         name: Decimal(number).scaleb(power) / below
         for name, of, (number, power, below) in _symbols
@@ -33,12 +33,14 @@ KINDS = tuple(
     for kind in range(4)
 )
 """Units of mass, length, force and pressure → kg, m, N and Pa."""
-MASSES, LENGTHS, FORCES, PRESSURES = KINDS
-SYMBOLS = {name: (kind, factor) for kind, of in enumerate(KINDS) for name, factor in of.items()}
-"""Unit → its kind, a place in :data:`KINDS`, and its factor to SI."""
+MASSES, LENGTHS, FORCES, PRESSURES = UNITS_BY_KIND
+SYMBOLS = {
+    name: (kind, factor) for kind, of in enumerate(UNITS_BY_KIND) for name, factor in of.items()
+}
+"""Unit → its kind, a place in :data:`UNITS_BY_KIND`, and its factor to SI."""
 ALIASES = dict(_aliases)
 """Spelling of a unit → the unit."""
-HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
+UNITS_HINT = 'give units of mass, length, force or pressure, such as "g, mm, lbf" or "oz·in"'
 LEAST_DIGITS = 3
 """Significant digits of a converted number in a text, at least."""
 
@@ -136,18 +138,20 @@ _settings: ContextVar[tuple[tuple[Shown, bool], ...]] = ContextVar("settings", d
 
 def read(text: object, name: str = "units") -> Setting:
     """Return the units that a text names."""
-    found: Setting = {}
-    for word in filter(None, (each.strip() for each in inputs.text(name, text, HINT).split(","))):
+    setting: Setting = {}
+    for word in filter(
+        None, (part.strip() for part in inputs.text(name, text, UNITS_HINT).split(","))
+    ):
         unit = symbol(word) or word.replace("*", "·")
         try:
             dimension = _dimension(_terms(unit))
         except KeyError:
             meant = inputs.nearest(word, [*SYMBOLS, *ALIASES])
-            raise inputs.rejected(name, text, f"{HINT}{meant}") from None
-        if dimension in found:
-            raise inputs.rejected(name, text, f"{found[dimension]} and {unit} are of one kind")
-        found[dimension] = _text(_terms(unit))
-    return found
+            raise inputs.rejected(name, text, f"{UNITS_HINT}{meant}") from None
+        if dimension in setting:
+            raise inputs.rejected(name, text, f"{setting[dimension]} and {unit} are of one kind")
+        setting[dimension] = _text(_terms(unit))
+    return setting
 
 
 def current() -> Setting:
@@ -218,19 +222,19 @@ class Figure(NamedTuple):
 
     def text(self, setting: Mapping[Dimension, str]) -> str:
         """Return the numbers and the unit that a setting shows."""
-        shown, spec = convert(self.unit, setting), self.spec
+        converted, spec = convert(self.unit, setting), self.spec
         numbers = [format(value, spec) for value in self.values]
-        if shown.factor != 1.0:
+        if converted.factor != 1.0:
             before, _, digits = spec.partition(".")
             most = int(digits[:-1] or 5)
             if digits.endswith("f"):
-                spec = f"{before}.{max(0, most - round(math.log10(shown.factor)))}f"
-                numbers = [format(value * shown.factor, spec) for value in self.values]
+                spec = f"{before}.{max(0, most - round(math.log10(converted.factor)))}f"
+                numbers = [format(value * converted.factor, spec) for value in self.values]
             else:
                 most = max(most, LEAST_DIGITS)
-                rounded = (float(f"{value * shown.factor:.{most}g}") for value in self.values)
+                rounded = (float(f"{value * converted.factor:.{most}g}") for value in self.values)
                 numbers = [f"{value:{before}.10g}" for value in rounded]
-        return f"{self.form.format(*numbers) if numbers else ''} {shown.unit}".strip()
+        return f"{self.form.format(*numbers) if numbers else ''} {converted.unit}".strip()
 
 
 class Text(str):
@@ -246,9 +250,9 @@ class Text(str):
     def __new__(cls, *parts: str | Figure) -> Self:
         """Return the text of words, other texts and figures."""
         flat = [
-            each for part in parts for each in (part.parts if isinstance(part, Text) else (part,))
+            piece for part in parts for piece in (part.parts if isinstance(part, Text) else (part,))
         ]
-        text = super().__new__(cls, "".join(_part(each, {}) for each in flat))
+        text = super().__new__(cls, "".join(_part(part, {}) for part in flat))
         text.parts = tuple(flat)
         return text
 
@@ -265,7 +269,7 @@ def shown(text: str, setting: Mapping[Dimension, str] | None = None) -> str:
     """Return a text with its figures as a setting shows them."""
     chosen = current() if setting is None else setting
     parts = text.parts if isinstance(text, Text) else (text,)
-    return "".join(_part(each, chosen) for each in parts)
+    return "".join(_part(part, chosen) for part in parts)
 
 
 def joined(separator: str, texts: Iterable[str]) -> Text:
@@ -288,7 +292,7 @@ def figure(value: float, unit: str, digits: int, most: float | None = None) -> T
 def factor_of(text: str, setting: Mapping[Dimension, str] | None = None) -> float:
     """Return the factor of numbers under a head, ``force, N``, in the unit that is shown."""
     parts = text.parts if isinstance(text, Text) else ()
-    alone = [each.unit for each in parts if isinstance(each, Figure) and not each.values]
+    alone = [part.unit for part in parts if isinstance(part, Figure) and not part.values]
     return convert(alone[-1], setting).factor if alone else 1.0
 
 
@@ -300,21 +304,21 @@ Terms = list[tuple[str, int]]
 
 def _terms(unit: str) -> Terms:
     """Return the symbols of a unit with their exponents; a KeyError for one that is unknown."""
-    if (found := _core.unit_terms(unit)) is None:
+    if (terms := _core.unit_terms(unit)) is None:
         raise KeyError(unit)
-    return found
+    return terms
 
 
 def _dimension(terms: Terms) -> Dimension:
     """Return the exponents of mass, length, force, pressure; of others the name is one."""
-    found = [0] * len(KINDS)
+    exponents = [0] * len(UNITS_BY_KIND)
     others: list[int] = []
     for name, n in terms:
         if name in SYMBOLS:
-            found[SYMBOLS[name][0]] += n
+            exponents[SYMBOLS[name][0]] += n
         else:
             others += [10 if name == "s" else 20, n]
-    return (*found, *others)
+    return (*exponents, *others)
 
 
 def _factor(terms: Terms) -> Fraction:

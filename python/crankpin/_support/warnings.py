@@ -13,7 +13,7 @@ from unicodedata import category
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-KEPT = "\n\t"
+KEPT_CONTROLS = "\n\t"
 """Control characters that texts of several lines have."""
 
 # Not the context manager of ``warnings``: that replaces the filters of all threads.
@@ -82,4 +82,6 @@ def without_controls(text: str) -> str:
     """
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c in KEPT or category(c) == "Zs" else " " for c in text)
+    return "".join(
+        c if c.isprintable() or c in KEPT_CONTROLS or category(c) == "Zs" else " " for c in text
+    )

@@ -192,8 +192,8 @@ class Balance(ByOrder[float]):
         # What was evaluated as orders were chosen is not computed again.
         alone = object.__new__(type(self))
         request = self._request.at_orders((order,))
-        own = {"engine": self.engine, "rpm": self.rpm, "_request": request, "_within": None}
-        alone.__dict__.update(own, _core=core)
+        fields = {"engine": self.engine, "rpm": self.rpm, "_request": request, "_within": None}
+        alone.__dict__.update(fields, _core=core)
         return self._kept.setdefault(order, alone)  # type: ignore[no-any-return]
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
@@ -207,7 +207,7 @@ class Balance(ByOrder[float]):
         core: _core.Balance = self.__dict__["_core"]
         if what == VALUES:
             return core.phasors(quantity, False)
-        if what in labels.TURNING:
+        if what in labels.TURNING_WORDS:
             return core.phasors(quantity, True)[:, int(what == "backward")]
         if what == "peak" and kind_of(quantity).planar:
             forward, backward = np.abs(core.phasors(quantity, True)).T
@@ -232,16 +232,16 @@ class Balance(ByOrder[float]):
     def table(self) -> Table:
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self._request.quantities if name != "crank_torque"]
-        shown, left_out = self._shown_orders(*names)
+        places, left_out = self._shown_orders(*names)
         mean = ("mean",) if self._has_means else ()
-        columns = [Column("order", (*mean, *(self.orders[k] for k in shown), ALL))]
+        columns = [Column("order", (*mean, *(self.orders[k] for k in places), ALL))]
         for name in names:
             kind = QUANTITIES[name]
             peaks = self.read(name, "peak_xy" if kind.planar else "peak")
             total = self.read(name, "total_peak_xy" if kind.planar else "total_peak")
             rows = np.concatenate(
                 [
-                    peaks.reshape(len(self.orders), len(kind.symbols))[list(shown)],
+                    peaks.reshape(len(self.orders), len(kind.symbols))[list(places)],
                     total.reshape(1, -1),
                 ]
             )

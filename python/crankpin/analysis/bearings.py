@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft
 
-AXES = ("engine", "crank", "rod")
+REFERENCE_AXES = ("engine", "crank", "rod")
 """Axes in which vectors are given: fixed in the engine, or turning with crank or rod."""
 LARGEST_BEARING = 10.0
 """Width or diameter of a bearing, in crank radii, above which it is not in metres: pins have 1."""
-PARTS = ("crank", "crankcase")
+CUT_PARTS = ("crank", "crankcase")
 """Parts that are cut along z."""
 
 
@@ -243,7 +243,7 @@ class BearingLoads(InsideLoads, Labelled):
     @cached_property
     def crankpins(self) -> tuple[tuple[int, ...], ...]:
         """Numbers of the cylinders whose rods share each crankpin, from front to flywheel."""
-        return tuple(each.cylinders for each in crankpins(self.engine))
+        return tuple(crankpin.cylinders for crankpin in crankpins(self.engine))
 
     @property
     def whole_crankpin(self) -> Quantity[np.float64, NDArray[np.float64]]:
@@ -284,13 +284,13 @@ class BearingLoads(InsideLoads, Labelled):
         name = inputs.one_of("load", load, _VECTORS)
         peaks = self._quantity(name).peak
         area = np.ones(len(peaks))
-        for argument, given in (("width", width), ("diameter", diameter)):
-            sizes = np.array(inputs.per_item(argument, given, len(peaks)))
+        for argument, sizes_of in (("width", width), ("diameter", diameter)):
+            sizes = np.array(inputs.per_item(argument, sizes_of, len(peaks)))
             hint = f"give metres above zero, one or one for each of {len(peaks)} bearings"
             if len(sizes) != len(peaks):
-                raise inputs.rejected(argument, given, hint)
+                raise inputs.rejected(argument, sizes_of, hint)
             if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
-                raise inputs.rejected(argument, given, hint)
+                raise inputs.rejected(argument, sizes_of, hint)
             inputs.positive_array(argument, sizes, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
                 warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
@@ -324,7 +324,7 @@ class BearingLoads(InsideLoads, Labelled):
         if len(places) != 2 or not np.isfinite(places).all() or places[0] == places[1]:
             raise inputs.rejected("z", z, "give the places of two bearings, m")
         front, rear = places
-        loads = [on_shaft_bearings(each, front, rear, self.rpm) for each in self.engine.shafts]
+        loads = [on_shaft_bearings(shaft, front, rear, self.rpm) for shaft in self.engine.shafts]
         return np.abs(np.array(loads).reshape(-1, 2))
 
     @property
@@ -366,7 +366,7 @@ class BearingLoads(InsideLoads, Labelled):
                [5370.,    0.]])
         """
         name = inputs.one_of("load", load, _VECTORS)
-        chosen = inputs.one_of("axes", axes, AXES)
+        chosen = inputs.one_of("axes", axes, REFERENCE_AXES)
         if chosen == "engine":
             return self.read(name)
         if (name, chosen) == ("main", "rod"):
@@ -489,11 +489,11 @@ class BearingLoads(InsideLoads, Labelled):
         index, count = inputs.whole("crank", crank, 0), len(engine_core(self.engine).cranks[0])
         if index >= count:
             raise inputs.rejected("crank", crank, f"give the index of a crank, 0 to {count - 1}")
-        cut = (inputs.one_of("part", part, PARTS), index)
-        kept = self.__dict__.setdefault("_cut", {})
-        if cut not in kept:
-            kept[cut] = self._core.sections(*cut, self.theta_deg)
-        return kept[cut]  # type: ignore[no-any-return]
+        cut = (inputs.one_of("part", part, CUT_PARTS), index)
+        cache = self.__dict__.setdefault("_cut", {})
+        if cut not in cache:
+            cache[cut] = self._core.sections(*cut, self.theta_deg)
+        return cache[cut]  # type: ignore[no-any-return]
 
     # --- tables and pictures ---------------------------------------------------------------------
 
@@ -503,7 +503,7 @@ class BearingLoads(InsideLoads, Labelled):
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
         over = "of a cycle" if self.at_any_angle else f"at {len(self.theta_deg)} crank angles"
         least, most = self._range("rod_force")
-        in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
+        in_tension = [sum(to - begin for begin, to in arcs) for arcs in self.tension_deg]
         columns = {
             "crankpin": self.crankpin.peak,
             "mean": self.crankpin.mean_magnitude,
@@ -516,7 +516,7 @@ class BearingLoads(InsideLoads, Labelled):
             f"{where}, largest loads {over}",
             (
                 _counted("cylinder", len(most)),
-                *(Column(name, each, "N") for name, each in columns.items()),
+                *(Column(name, values, "N") for name, values in columns.items()),
                 Column("pulled for", tuple(in_tension), "°"),
             ),
             loads=self.loads_counted,
@@ -551,8 +551,8 @@ class BearingLoads(InsideLoads, Labelled):
         return Table(
             "Bearings of balance shafts beside the end main bearings, whose loads turn with them",
             (
-                Column("shaft", tuple(each.name or k for k, each in enumerate(shafts, start=1))),
-                Column("speed ratio", tuple(each.ratio for each in shafts)),
+                Column("shaft", tuple(shaft.name or k for k, shaft in enumerate(shafts, start=1))),
+                Column("speed ratio", tuple(shaft.ratio for shaft in shafts)),
                 Column("front", tuple(front), "N"),
                 Column("rear", tuple(rear), "N"),
             ),
@@ -568,7 +568,7 @@ class BearingLoads(InsideLoads, Labelled):
                 _counted("main", len(self.main)),
                 *([cranks] if self.main_crank.any() else ()),
                 Column("z", self.main_z, "m"),
-                *(Column(name, each, "N") for name, each in loads.items()),
+                *(Column(name, values, "N") for name, values in loads.items()),
             ),
             loads=self.loads_counted,
         )
@@ -579,8 +579,8 @@ def on_shaft_bearings(
 ) -> NDArray[np.complex128]:
     """Return what a balance shaft puts on its two bearings at θ = 0, x + iy, N."""
     forces = [
-        (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
-        for each in shaft.unbalances
+        (unbalance.amount * complex(direction(inputs.degrees(unbalance.angle_deg))), unbalance.z)
+        for unbalance in shaft.unbalances
     ]
     loads = np.array(_core.shared(forces, front, rear), dtype=np.complex128)
     return loads * (shaft.ratio * inputs.angular_speed(rpm)) ** 2

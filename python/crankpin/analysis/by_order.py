@@ -210,14 +210,14 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         if self._request.orders is not None:
             return places, ()
         swept = tuple(range(len(self.dims)))
-        kept = np.zeros(len(places), dtype=bool)
+        is_kept = np.zeros(len(places), dtype=bool)
         for name in names:
             peaks = self.read(name, "peak").max(axis=swept, initial=0.0)
-            kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
-        if not kept.any():
+            is_kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
+        if not is_kept.any():
             return places, ()
-        shown = tuple(place for place in places if kept[place])
-        return shown, tuple(self.orders[place] for place in places if not kept[place])
+        visible = tuple(place for place in places if is_kept[place])
+        return visible, tuple(self.orders[place] for place in places if not is_kept[place])
 
     def _least_shown(self, peaks: NDArray[np.float64]) -> float:
         """Return the least peak that tables write as a number, of a quantity with these."""
@@ -234,11 +234,11 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         if quantity.order is not None:
             keys = (quantity.order,)
         else:
-            shown, left_out = self._shown_orders(quantity.name)
-            keys, note = (*(self.orders[k] for k in shown), ALL), labels.not_shown(left_out)
+            visible, left_out = self._shown_orders(quantity.name)
+            keys, note = (*(self.orders[k] for k in visible), ALL), labels.not_shown(left_out)
         unit, words = quantity.unit, quantity.words
         title: str = units.headed(words, unit)
-        coords = {name: each for name, each in quantity.coords.items() if name in self.dims}
+        coords = {name: values for name, values in quantity.coords.items() if name in self.dims}
         if coords:
             columns = export.points(coords, len(keys))
             columns += [
@@ -340,25 +340,31 @@ class OrderBalance(ShakingQuantities["np.complex128", Value, Value], Tabled, Gen
             return self._table_by_point()
         parts = () if self.order == ALL else ("forward", "backward")
         rows: list[tuple[str | float | None, ...]] = []
-        for each in self._each():
+        for quantity in self._each():
             beside: list[float | None] = [None] * (2 + len(parts))
-            if each.kind.planar:
-                beside = [*each.peak_xy.tolist(), *(abs(getattr(each, part)) for part in parts)]
-            status = () if self.order == ALL else (each.status,)
-            row = (*beside[:2], each.peak, *beside[2:], *status)
-            rows.append((each.kind.words, each.unit, *row))
+            if quantity.kind.planar:
+                beside = [
+                    *quantity.peak_xy.tolist(),
+                    *(abs(getattr(quantity, part)) for part in parts),
+                ]
+            status = () if self.order == ALL else (quantity.status,)
+            row = (*beside[:2], quantity.peak, *beside[2:], *status)
+            rows.append((quantity.kind.words, quantity.unit, *row))
         heads = ["quantity", "unit", "x", "y", "largest", *parts]
         heads += [] if self.order == ALL else ["status"]
         speed = labels.at_speed(self.result._attributes["rpm"])
         title = f"{labels.name_of(self.result._engines[0])} {speed}: {self._which}"
-        row_units = [each.unit for each in self._each()]
+        row_units = [quantity.unit for quantity in self._each()]
         return Table.from_rows(title, heads, rows, loads=self.loads_counted, row_units=row_units)
 
     def _table_by_point(self) -> Table:
         """Return the largest peak of each quantity of a sweep at each point."""
-        shown = list(self._each())
-        columns = export.points(self.result.coords, len(shown))
-        columns += [Column(each.kind.vector_symbol, each.peak, each.unit) for each in shown]
+        quantities = list(self._each())
+        columns = export.points(self.result.coords, len(quantities))
+        columns += [
+            Column(quantity.kind.vector_symbol, quantity.peak, quantity.unit)
+            for quantity in quantities
+        ]
         title = f"Peaks of {self._which}"
         return Table(title, tuple(columns), loads=self.loads_counted)
 

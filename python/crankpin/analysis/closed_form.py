@@ -224,9 +224,9 @@ class ClosedForm(Tabled):
             values[axis] = complex(real, imaginary) * factor
         if self.loads:
             balance = self.engine.balance(rpm, orders=[self.order], torque=False)
-            listed = contributions(balance.about(self.reference_z), self.quantity)
-            own = [part.phasors[:, 0] for part in listed if part.group == "loads"]
-            forward, backward = np.sum(own, axis=0)
+            parts = contributions(balance.about(self.reference_z), self.quantity)
+            phasors = [part.phasors[:, 0] for part in parts if part.group == "loads"]
+            forward, backward = np.sum(phasors, axis=0)
             values["forward"] += forward
             values["backward"] += backward
             values["x"] += forward + np.conj(backward)
@@ -377,12 +377,12 @@ class ClosedForm(Tabled):
         scale = cylinder.reciprocating_mass * cylinder.crank_radius
         factor = scale * complex(cylinder.harmonics(self.order)[0])
         order = str(self.order).translate(SUBSCRIPTS)
-        shown = units.convert("kg·m")
-        factor *= shown.factor
+        converted = units.convert("kg·m")
+        factor *= converted.factor
         value = f"{factor.real:.6g}"
         if factor.imag:
             value = f"({value} {'-' if factor.imag < 0 else '+'} {abs(factor.imag):.6g}i)"
-        text = f"F = m·r·a{order}·ω² = {value} {shown.unit}·ω² of cylinder {self.unit_cylinder}"
+        text = f"F = m·r·a{order}·ω² = {value} {converted.unit}·ω² of cylinder {self.unit_cylinder}"
         if factor != abs(factor):
             text += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-ROUNDING = 1e-12
+NO_CHANGE = 1e-12
 """Changes below this part of a peak are those of rounding in sums of all cylinders."""
 LUMPED: Final = "lumped"
 """Stands for an engine as textbooks lump it."""
@@ -147,9 +147,9 @@ class Comparison(Tabled):
     """Balance of the engine after the change."""
 
     def __post_init__(self) -> None:
-        for name, each in (("before", self.before), ("after", self.after)):
-            if not isinstance(each, Balance):
-                raise inputs.rejected(name, each, "use crankpin.compare")
+        for name, state in (("before", self.before), ("after", self.after)):
+            if not isinstance(state, Balance):
+                raise inputs.rejected(name, state, "use crankpin.compare")
         if self.before.orders != self.after.orders or self.before.rpm != self.after.rpm:
             fault = "is at different orders or speeds than before"
             raise inputs.faulty("after", fault, "use crankpin.compare")
@@ -196,10 +196,10 @@ class Comparison(Tabled):
         """
         before, after = self._peaks(quantity)
         peaks = np.maximum(before, after)
-        kept: list[int] = np.flatnonzero(
+        places: list[int] = np.flatnonzero(
             peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
         ).tolist()
-        return kept
+        return places
 
     def _peaks(self, quantity: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         name = inputs.one_of("quantity", quantity, QUANTITIES)
@@ -216,24 +216,24 @@ class Comparison(Tabled):
             kind = QUANTITIES[name]
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
-            shown = self._shown_orders(name)
+            places = self._shown_orders(name)
             head = units.headed(kind.words, kind.unit)
-            texts += [(head, self.orders[k]) for k in shown]
-            rows += [(before[k], after[k], change[k]) for k in shown]
-            row_units += [kind.unit] * (len(shown) + (len(shown) > 1))
-            if len(shown) > 1:
-                total = [getattr(each.total, name).peak for each in (self.before, self.after)]
+            texts += [(head, self.orders[k]) for k in places]
+            rows += [(before[k], after[k], change[k]) for k in places]
+            row_units += [kind.unit] * (len(places) + (len(places) > 1))
+            if len(places) > 1:
+                total = [getattr(balance.total, name).peak for balance in (self.before, self.after)]
                 texts.append((head, ALL))
                 rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
-        listed = np.array(rows).reshape(-1, 3)
-        listed[~np.isfinite(listed)] = np.nan  # relative to nothing
+        numbers = np.array(rows).reshape(-1, 3)
+        numbers[~np.isfinite(numbers)] = np.nan  # relative to nothing
         return Table.from_rows(
             title,
             [*header[:-1], ("change", "%")],
             texts,
-            listed,
+            numbers,
             loads=self.loads_counted,
             row_units=row_units,
         )
@@ -247,7 +247,7 @@ class Comparison(Tabled):
     @property
     def names(self) -> tuple[str, str]:
         """Names of the engines; ``"before"`` and ``"after"`` if they have one name."""
-        first, second = (labels.name_of(each.engine) for each in (self.before, self.after))
+        first, second = (labels.name_of(balance.engine) for balance in (self.before, self.after))
         return (first, second) if first != second else ("before", "after")
 
     @property
@@ -263,4 +263,4 @@ def _change(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[
     """Return the change relative to what was before: 0 where they differ by rounding alone."""
     with np.errstate(divide="ignore", invalid="ignore"):
         change = (after - before) / before
-    return np.where(np.abs(after - before) <= ROUNDING * before, 0.0, change)
+    return np.where(np.abs(after - before) <= NO_CHANGE * before, 0.0, change)

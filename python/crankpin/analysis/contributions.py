@@ -49,7 +49,7 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
         request.aside,
     )
     banks = {number: name for name, numbers in engine.banks.items() for number in numbers}
-    listed = []
+    parts = []
     for kind, index, part in terms:
         name, group = str(index + 1), banks.get(index + 1, "")
         if kind == "counterweight":
@@ -60,8 +60,8 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
             name, group = f"L{name}", "loads"
         vectors = part.phasors(quantity, quantity in PLANE_VECTORS)
         by_order = vectors.T if vectors.ndim == 2 else vectors[np.newaxis]
-        listed.append(Contribution(name, group, by_order, part.zero_bound(quantity)))
-    return listed
+        parts.append(Contribution(name, group, by_order, part.zero_bound(quantity)))
+    return parts
 
 
 def phasors(result: Balance, quantity: str) -> NDArray[np.complex128]:

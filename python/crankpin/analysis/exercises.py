@@ -28,9 +28,9 @@ INLINES = ("i2-360", "i2-180", "i2-270", "i3", "i4", "i4-crossplane", "i6")
 """Inline engines with a measurable shaking force: that of an inline-5 is order 10, some mN."""
 FIRING = ("i3", "i4", "i5", "i6", "v6-60", "v6-90-odd-fire", "v8-crossplane", "v12-60", "v-twin-45")
 SECOND = "With λ = r / l the second harmonic is a₂ ≈ λ + λ³/4."
-WIDTH = 88
+TEXT_WIDTH = 88
 """Width of a question in text, characters."""
-NEAR = 0.01
+RIGHT_WITHIN = 0.01
 """Answers within one per cent are right: slide rules and three digits are welcome."""
 
 
@@ -123,7 +123,7 @@ class Exercise(Tabled):
 
     def __post_init__(self) -> None:
         steps: object = self.steps
-        sound = isinstance(steps, tuple) and all(isinstance(each, Step) for each in steps)
+        sound = isinstance(steps, tuple) and all(isinstance(step, Step) for step in steps)
         if not (sound and steps):
             raise inputs.rejected("steps", steps, "use cp.exercise")
         super().__post_init__()
@@ -131,8 +131,8 @@ class Exercise(Tabled):
     @property
     def table(self) -> Table:
         """Answers that the sheet asks for, with their units, and the question."""
-        asked = [(step.answer, step.unit) for step in self._answered]
-        return Table.from_rows(self._head, ["answer", "unit"], asked, note=self.question)
+        rows = [(step.answer, step.unit) for step in self._answered]
+        return Table.from_rows(self._head, ["answer", "unit"], rows, note=self.question)
 
     @property
     def frames(self) -> Frames:
@@ -182,13 +182,16 @@ class Exercise(Tabled):
             raise inputs.faulty("answers", "are left out", hint)
         return {
             inputs.one_of("answers", name, right): math.isclose(
-                inputs.finite(name, value), right[name], rel_tol=NEAR, abs_tol=NEAR * NEAR
+                inputs.finite(name, value),
+                right[name],
+                rel_tol=RIGHT_WITHIN,
+                abs_tol=RIGHT_WITHIN * RIGHT_WITHIN,
             )
             for name, value in answers.items()
         }
 
     def __str__(self) -> str:
-        return "\n".join((self._head, textwrap.fill(self.question, WIDTH), self._asks))
+        return "\n".join((self._head, textwrap.fill(self.question, TEXT_WIDTH), self._asks))
 
     __repr__ = __str__
 
@@ -297,13 +300,13 @@ def _inline(random: Random) -> Sheet:
         ),
         Step("force of that order", "aₙ F |Σ e^(i n φ)|", force, "N", "force"),
     )
-    listed = "-".join(f"{angle:g}" for angle in engine.throws_deg)
+    angles = "-".join(f"{angle:g}" for angle in engine.throws_deg)
     evens = ", ".join(
         f"a{n} = {value:.4g}"
         for n, value in zip("₂₄₆", figures.cylinder.harmonics([2, 4, 6]).real, strict=True)
     )
     question = (
-        f"An inline-{len(engine)} has the throws {listed}. {figures} The piston's harmonics are "
+        f"An inline-{len(engine)} has the throws {angles}. {figures} The piston's harmonics are "
         f"a₁ = 1, {evens}, and no others of odd order. Which is the lowest order with a shaking "
         "force, and how large is it?"
     )

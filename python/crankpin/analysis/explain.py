@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
-UNITS = ("m", "mm", *(
+SENTENCE_UNITS = ("m", "mm", *(
     unit
     for name in PLANE_VECTORS
     for unit in (QUANTITIES[name].unit, QUANTITIES[name].unit_over_square)
@@ -94,8 +94,8 @@ class Explanation(Tabled):
     def table(self) -> Table:
         """Sentences, and what each is about."""
         rows = [
-            (each.kind, QUANTITIES[each.quantity].words if each.quantity else "–", text)
-            for each, text in zip(self.findings, self.sentences, strict=True)
+            (finding.kind, QUANTITIES[finding.quantity].words if finding.quantity else "–", text)
+            for finding, text in zip(self.findings, self.sentences, strict=True)
         ]
         return Table.from_rows(self._title, ["finding", "quantity", "sentence"], rows)
 
@@ -128,18 +128,18 @@ class Explanation(Tabled):
             HTML.
         """
         if count is None:
-            said = self._said(self._explained)
+            sentences = self._said(self._explained)
         else:
             first = min(inputs.whole("count", count, 0), sys.maxsize)
             explained = _core.explain(engine_core(self.engine), self.rpm, vectors=True)
-            said = self._said(explained, first)
-        items = "".join(f"<li>{html.escape(each)}</li>" for each in said)
+            sentences = self._said(explained, first)
+        items = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in sentences)
         return f"<ul>{items}</ul>"
 
     def _said(self, explained: _core.Explanation, count: int | None = None) -> list[str]:
         """Return the sentences in the units that are set."""
-        shown = [(unit, *units.convert(unit)) for unit in UNITS]
-        changed = [(unit, to, factor) for unit, to, factor in shown if to != unit]
+        converted = [(unit, *units.convert(unit)) for unit in SENTENCE_UNITS]
+        changed = [(unit, to, factor) for unit, to, factor in converted if to != unit]
         return explained.sentences(self.engine.loads_counted, changed, count)
 
     @cached_property

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 SMALLER = "sweep one axis in parts, or use to_dask"
 """Hint for results too large for memory."""
-AXES = ("axis", "component")
+COMPONENT_DIMS = ("axis", "component")
 """Dimensions of the components of a vector or a load, the last ones."""
 VALUES = "values"
 """Name of the array itself: phasors of results by order, else values."""
@@ -64,17 +64,19 @@ def place_of(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - te
     """Return the place of a value among those of a coordinate."""
     if isinstance(values, tuple) and values and isinstance(values[0], str):
         return values.index(inputs.one_of(name, value, values))
-    number, known = inputs.number(name, value), np.asarray(values)
-    places = np.flatnonzero(known == number)
+    number, values_of = inputs.number(name, value), np.asarray(values)
+    places = np.flatnonzero(values_of == number)
     if not places.size:
         nearest = ""
-        if known.size:
+        if values_of.size:
             nearest = (
-                f", {known.min():.10g} to {known.max():.10g}; "
-                f"the nearest is {known[np.abs(known - number).argmin()]:.10g}"
+                f", {values_of.min():.10g} to {values_of.max():.10g}; "
+                f"the nearest is {values_of[np.abs(values_of - number).argmin()]:.10g}"
             )
         swept = "swept " if name in labels.SWEPT else ""
-        raise inputs.rejected(name, value, f"is not among the {len(known)} {swept}values{nearest}")
+        raise inputs.rejected(
+            name, value, f"is not among the {len(values_of)} {swept}values{nearest}"
+        )
     return int(places[0])
 
 
@@ -95,33 +97,35 @@ def dataset(
     lazy
         Name of a variable → its values where they are not those of the result, as of dask.
     """
-    listed = [
-        (variable(each.name, what), each, what)
-        for each in quantities
-        for what in result._in_datasets(each.name)
+    pairs = [
+        (variable(quantity.name, what), quantity, what)
+        for quantity in quantities
+        for what in result._in_datasets(quantity.name)
     ]
-    coords = union([each for _, each, _ in listed])
+    coords = union([quantity for _, quantity, _ in pairs])
     if lazy is None:
         fitting(
             coords,
             *(
-                (each._dims_of(what), 16 if "order" in each.dims and what in COMPLEX else 8)
-                for _, each, what in listed
+                (quantity._dims_of(what), 16 if "order" in quantity.dims and what in COMPLEX else 8)
+                for _, quantity, what in pairs
             ),
         )
     arrays = {
         name: (
-            each._dims_of(what),
-            lazy[name] if lazy is not None else each._picked(what, result.read(each.name, what)),
-            {"units": each.kind.xarray_unit} if each.unit else {},
+            quantity._dims_of(what),
+            lazy[name]
+            if lazy is not None
+            else quantity._picked(what, result.read(quantity.name, what)),
+            {"units": quantity.kind.xarray_unit} if quantity.unit else {},
         )
-        for name, each, what in listed
+        for name, quantity, what in pairs
     }
     attributes = dict(result._attributes) | labels.attributes(result.loads_counted)
-    for each in quantities:
-        whole = each.name.partition(".")[0]
+    for quantity in quantities:
+        whole = quantity.name.partition(".")[0]
         if whole in result.error_bound:
-            attributes[f"{variable(each.name)}_error_bound"] = result.error_bound[whole]
+            attributes[f"{variable(quantity.name)}_error_bound"] = result.error_bound[whole]
     return optional.dataset(arrays, labels.coordinates(coords), attributes)
 
 
@@ -141,8 +145,8 @@ def variable(quantity: str, what: str = VALUES) -> str:
 
 def union(quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Return the coordinates of some quantities: those of all first, axes last."""
-    known = {name: values for each in quantities for name, values in each.coords.items()}
-    return {name: known[name] for name in sorted(known, key=AXES.count)}
+    by_name = {name: values for quantity in quantities for name, values in quantity.coords.items()}
+    return {name: by_name[name] for name in sorted(by_name, key=COMPONENT_DIMS.count)}
 
 
 def fitting(coords: Mapping[str, Any], *arrays: tuple[Iterable[str], int]) -> None:
@@ -187,7 +191,7 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
     if axes:
         by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
     if "axis" in quantity.dims and kind.planar:
-        by_name |= {part: getattr(quantity, part) for part in labels.TURNING}
+        by_name |= {part: getattr(quantity, part) for part in labels.TURNING_WORDS}
     return {
         name: {"real": part.real, "imag": part.imag, "peak": np.abs(part)}
         for name, part in by_name.items()
@@ -196,12 +200,16 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
 
 def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:
     """Return values of each quantity and component, below each other."""
-    lengths = [tuple(d for d in each.dims if d not in AXES) for each in quantities]
-    coords = {name: values for name, values in union(quantities).items() if name not in AXES}
+    lengths = [
+        tuple(d for d in quantity.dims if d not in COMPONENT_DIMS) for quantity in quantities
+    ]
+    coords = {
+        name: values for name, values in union(quantities).items() if name not in COMPONENT_DIMS
+    }
     parts = [
-        (each, dims, component, figures)
-        for each, dims in zip(quantities, lengths, strict=True)
-        for component, figures in components(each).items()
+        (quantity, dims, component, figures)
+        for quantity, dims in zip(quantities, lengths, strict=True)
+        for component, figures in components(quantity).items()
     ]
     heads = list(dict.fromkeys(head for *_, figures in parts for head in figures))
     sizes = [math.prod(len(coords[d]) for d in dims) for _, dims, *_ in parts]
@@ -224,7 +232,7 @@ def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -
         for name in coords:
             pieces = [along(name, dims, n) for (_, dims, *_), n in zip(parts, sizes, strict=True)]
             columns.append(Column(name, np.concatenate(pieces), digits=10))
-    columns.append(repeated("quantity", (each.name for each, *_ in parts)))
+    columns.append(repeated("quantity", (kind.name for kind, *_ in parts)))
     columns.append(repeated("component", (component for _, _, component, _ in parts)))
     for head in heads:
         pieces = [
@@ -232,5 +240,5 @@ def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -
             for (*_, figures), n in zip(parts, sizes, strict=True)
         ]
         columns.append(Column(head, np.concatenate(pieces)))
-    columns.append(repeated("unit", (each.unit for each, *_ in parts)))
+    columns.append(repeated("unit", (kind.unit for kind, *_ in parts)))
     return Table(title, tuple(columns), loads=loads, row_units=tuple(columns[-1].data))

@@ -340,14 +340,14 @@ def firings(
     """Return every way to fire in an order; see :meth:`Engine.firing_schedules`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
     return tuple(
-        Firing._of(each, engine) for each in _core.Firing.all_named(engine._core, text, count)
+        Firing._of(core, engine) for core in _core.Firing.all_named(engine._core, text, count)
     )
 
 
 def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
     """Return every way to fire; see :meth:`Engine.firing_orders`."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
-    return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine._core, count))
+    return tuple(Firing._of(core, engine) for core in _core.Firing.all(engine._core, count))
 
 
 @documented()
@@ -402,16 +402,16 @@ def throws(
     """
     banks = banks_of_order(firing_order, bank_angle_deg, numbering, odd_bank)
     text = inputs.firing_order("firing_order", firing_order, banks)
-    listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
+    intervals = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
     number = inputs.strokes(strokes)
     across = vee_layout_of(bank_angle_deg, 0.0, numbering, odd_bank)
     if bank_angle_deg is None:
-        return _core.inline_throws(text, listed, number), read_only(np.empty(0))
+        return _core.inline_throws(text, intervals, number), read_only(np.empty(0))
     layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}
-    angles, splits = _core.vee_throws(text, listed, number, layout | across)
+    angles, splits = _core.vee_throws(text, intervals, number, layout | across)
     if intervals_deg is None:
         other = across | {"odd_bank": checks.other_bank(odd_bank)}
-        _, others = _core.vee_throws(text, listed, number, layout | other)
+        _, others = _core.vee_throws(text, intervals, number, layout | other)
         checks.odd_bank(odd_bank, splits, others)
     return angles, splits
 
@@ -425,23 +425,23 @@ def _order_and_strokes(
         return inputs.firing_order("firing_order", firing_order, engine._core.bank), count
     if engine.firing_order and count == engine.strokes:
         return engine.firing_order, count
-    known = "the engine's firing order is not known"
+    fault = "the engine's firing order is not known"
     if engine.firing_order:
-        known = f"the engine's firing order is that of a {engine.strokes}-stroke"
+        fault = f"the engine's firing order is that of a {engine.strokes}-stroke"
     hint = "give one, such as '1-3-4-2', or list them by firing_orders()"
-    raise inputs.rejected("firing_order", None, f"{known}; {hint}")
+    raise inputs.rejected("firing_order", None, f"{fault}; {hint}")
 
 
 def _groups(groups: Groups | None) -> list[list[int]] | None:
     if groups is None:
         return None
     hint = "give lists of cylinder numbers, such as [[1, 4], [2, 3]]"
-    listed = []
+    texts = []
     for k, group in enumerate(inputs.items("groups", groups, hint)):
         name = f"groups[{k}]"
         numbers = [inputs.whole(name, number) for number in inputs.items(name, group, hint)]
         for number in numbers:
             if not 1 <= number < 2**32:
                 raise inputs.rejected(name, number, hint)
-        listed.append(numbers)
-    return listed
+        texts.append(numbers)
+    return texts

@@ -30,7 +30,7 @@ class _Timing(Input):
 
     @property
     def _names(self) -> list[str]:
-        return [each.name for each in self._fields]
+        return [field.name for field in self._fields]
 
 
 class ValveTiming(_Timing):

@@ -60,17 +60,21 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     """Return the places of an engine's parts at a crank angle, by exact kinematics."""
     theta = crank_angle(theta_deg)
     cylinders = engine.cylinders
-    radius, offset = np.array([(each.crank_radius, each.pin_offset) for each in cylinders]).T
-    highest, lowest = np.array([each._ends for each in cylinders]).T
+    radius, offset = np.array(
+        [(cylinder.crank_radius, cylinder.pin_offset) for cylinder in cylinders]
+    ).T
+    highest, lowest = np.array([cylinder._ends for cylinder in cylinders]).T
     # The bar of a yoke stands between the piston and the middle of its stroke.
-    yokes = np.isinf([each.rod_length for each in cylinders])
-    bar = np.where(yokes, [drawn_rod(each) for each in cylinders], 0.0)
+    yokes = np.isinf([cylinder.rod_length for cylinder in cylinders])
+    bar = np.where(yokes, [drawn_rod(cylinder) for cylinder in cylinders], 0.0)
     along = direction(engine.bank_deg)
     axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
     foot = axis + 1j * np.sign(ratio) * offset * along
     turns = abs(ratio) * (theta - engine.tdc_deg)
-    height = bar + [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
+    height = bar + [
+        float(cylinder.position(at)) for cylinder, at in zip(cylinders, turns, strict=True)
+    ]
     crankpin = axis + radius * direction(engine.pin_deg + ratio * theta)
     wrist_pin = foot + height * along
     return Geometry(
@@ -112,32 +116,32 @@ def weights_on_crank(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     """Return the counterweights, turned to a crank angle."""
     pins, (cranks, crank_of) = engine.pin_deg, engine._core.cranks
     weights = []
-    for each in engine.counterweights:
-        crank = each.crank if each.pin is None else crank_of[each.pin - 1]
+    for weight in engine.counterweights:
+        crank = weight.crank if weight.pin is None else crank_of[weight.pin - 1]
         x, y, ratio = cranks[crank]
-        angle = inputs.degrees(each.angle_deg)
-        if each.pin is not None:
+        angle = inputs.degrees(weight.angle_deg)
+        if weight.pin is not None:
             # Ahead of the pin in the sense in which its crank turns.
-            angle = float(pins[each.pin - 1] + np.sign(ratio) * angle)
+            angle = float(pins[weight.pin - 1] + np.sign(ratio) * angle)
         turned = (angle + ratio * theta_deg) % 360.0
-        weights.append(Weight(each.z, each.amount, turned, complex(x, y), crank))
+        weights.append(Weight(weight.z, weight.amount, turned, complex(x, y), crank))
     return weights
 
 
 def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
     """Return the unbalances of the cylinders' rotating masses at a crank angle."""
-    amounts = engine.rotating_mass * [each.crank_radius for each in engine.cylinders]
+    amounts = engine.rotating_mass * [cylinder.crank_radius for cylinder in engine.cylinders]
     axes, ratios = _cranks(engine)
     angles = engine.pin_deg + ratios * theta_deg
     crank_of = engine._core.cranks[1]
     lists = (engine.z.tolist(), amounts.tolist(), angles.tolist(), axes.tolist(), crank_of)
-    return [Weight(*each) for each in zip(*lists, strict=True) if each[1]]
+    return [Weight(*row) for row in zip(*lists, strict=True) if row[1]]
 
 
 def weights_on_shafts(engine: Engine, theta_deg: float = 0.0) -> list[list[Weight]]:
     """Return the unbalances of each balance shaft, turned to a crank angle."""
     return [
-        [_turned(each, shaft.ratio * theta_deg) for each in shaft.unbalances]
+        [_turned(unbalance, shaft.ratio * theta_deg) for unbalance in shaft.unbalances]
         for shaft in engine.shafts
     ]
 

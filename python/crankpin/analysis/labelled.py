@@ -152,8 +152,8 @@ class Labelled(Tabled):
         """Return dimension → its values, of a quantity."""
         kind = self._kind(quantity)
         further = {"order": self._orders, "axis": kind.axes, "component": COMPONENTS_OF_LOADS}
-        known = {**further, **self._own_coords, **self.coords}
-        return {name: known[name] for name in self._dims(quantity)}
+        coords = {**further, **self._own_coords, **self.coords}
+        return {name: coords[name] for name in self._dims(quantity)}
 
     # --- arrays ---------------------------------------------------------------------------------
 

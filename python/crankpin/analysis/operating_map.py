@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import LOADS, POINTS
+from crankpin._support.quantities import LOADS, OF_POINTS
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
@@ -121,8 +121,8 @@ def operating_map(
                     of_point = loads.read(name, "peak")
                     peaks.setdefault(name, np.zeros((*shape, len(of_point))))[j, k] = of_point
                 if inertia is not None:
-                    found = flywheel(fired, speed, inertia=inertia)
-                    wheel[:, j, k] = found.irregularity, found.swing_deg
+                    result = flywheel(fired, speed, inertia=inertia)
+                    wheel[:, j, k] = result.irregularity, result.swing_deg
     inputs.warn_of_units(mean_piston_speed(engine, float(np.abs(speeds).max())))
     checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     arrays = peaks | ({} if inertia is None else dict(zip(OF_WHEEL, wheel.copy(), strict=True)))
@@ -154,7 +154,7 @@ class OperatingMap(InsideLoads, Labelled):
     gas: str
     """Gas pressure that counts, in words."""
 
-    _registry: ClassVar[Mapping[str, Kind]] = POINTS
+    _registry: ClassVar[Mapping[str, Kind]] = OF_POINTS
 
     def __post_init__(self) -> None:
         engine_core(self.engine)

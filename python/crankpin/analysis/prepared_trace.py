@@ -378,7 +378,7 @@ def _without(traces: Traces, leave_out: object) -> tuple[Traces, str]:
     said = [f"{k} ({kinds[k]})" if k in kinds else str(k) for k in out]
     more = f" and {len(said) - NAMED} more" if len(said) > NAMED else ""
     name += f", without cycle{'s' * (len(out) > 1)} {', '.join(said[:NAMED])}{more}"
-    return traces.without(out), name
+    return traces.without_cycles(out), name
 
 
 def _count_of_spikes(traces: Traces) -> str:
@@ -470,7 +470,7 @@ def _convolved(
 
 def _parts(length: int, count: int) -> Iterator[slice]:
     """Yield slices of columns of ``count`` rows, of at most :data:`PIECE` numbers."""
-    step = max(1, inputs.PIECE // count)
+    step = max(1, inputs.PIECE_NUMBERS // count)
     return (slice(start, start + step) for start in range(0, length, step))
 
 

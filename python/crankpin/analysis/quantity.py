@@ -204,8 +204,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
     @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values, in the sequence of ``dims``."""
-        known = self.result._coordinates(self.name)
-        coords: Mapping[str, Any] = read_only({name: known[name] for name in self.dims})
+        by_dim = self.result._coordinates(self.name)
+        coords: Mapping[str, Any] = read_only({name: by_dim[name] for name in self.dims})
         return coords
 
     @property
@@ -291,7 +291,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
         Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
         """
-        forward, backward = (self._along(part, "minor", 2) for part in labels.TURNING)
+        forward, backward = (self._along(part, "minor", 2) for part in labels.TURNING_WORDS)
         return self._of_one_order(np.abs(forward) - np.abs(backward))
 
     @property
@@ -300,7 +300,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
 
         0 for a circle.
         """
-        forward, backward = (self._along(part, "tilt_deg", 2) for part in labels.TURNING)
+        forward, backward = (self._along(part, "tilt_deg", 2) for part in labels.TURNING_WORDS)
         return self._of_one_order(_core.tilts_deg(np.asarray(forward), np.asarray(backward)))
 
     def _of_one_order(self, values: Any) -> Values:  # noqa: ANN401 - an array
@@ -348,8 +348,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """
         if "." in self.name:
             raise self._absent("part", "it is one; read it of the whole")
-        known = self.result._named_parts(self.name)
-        return changed(self, name=f"{self.name}.{inputs.one_of('name', name, known)}")
+        parts = self.result._named_parts(self.name)
+        return changed(self, name=f"{self.name}.{inputs.one_of('name', name, parts)}")
 
     @property
     def gas(self) -> Self:
@@ -541,16 +541,16 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         >>> bool(s.force.sel(rpm=2000).peak[0] == s.force.peak[1, 0])
         True
         """
-        found, coords = self, self.coords
+        selected, coords = self, self.coords
         for name, value in coordinates.items():
             values = coords[inputs.one_of("dimension", name, self.dims)]
             if name == "order":
                 place = self._place(value)
-                found = changed(found, order=self.orders[place])
+                selected = changed(selected, order=self.orders[place])
             else:
                 place = export.place_of(name, value, values)
-                found = changed(found, selected=(*found.selected, (name, place)))
-        return found
+                selected = changed(selected, selected=(*selected.selected, (name, place)))
+        return selected
 
     # --- an array -------------------------------------------------------------------------------
 
@@ -671,8 +671,8 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
             peak = "peak " if "peak" in self.result._readings(self.name) else ""
             highest: Any = self.peak if peak else np.asarray(self)[()]
             return f"{text}: {peak}{units.shown(units.figure(highest, self.unit, 5))}{loads}>"
-        known = self.result._coordinates(self.name)
-        over = ", ".join(f"{d}: {len(known[d])}" for d in dims)
+        coords = self.result._coordinates(self.name)
+        over = ", ".join(f"{d}: {len(coords[d])}" for d in dims)
         return f"{text}, {self.unit}, over ({over}){loads}>"
 
     def _dataset(self) -> xr.Dataset | None:
@@ -685,4 +685,4 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - arguments of functions of NumPy
         return np.asarray(value)
     if type(value) in (list, tuple):
         return type(value)(map(_plain, value))
-    return {key: _plain(each) for key, each in value.items()} if type(value) is dict else value
+    return {key: _plain(inner) for key, inner in value.items()} if type(value) is dict else value

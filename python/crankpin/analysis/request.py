@@ -71,10 +71,12 @@ class Request(NamedTuple):
         if name == "z" or not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
             return self._replace(reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
         hint = "point is a position z along the crank, or (x, y, z), m"
-        listed = [inputs.finite(name, each) for each in inputs.items(name, point, hint)]
-        if len(listed) != 3:
+        coordinates = [
+            inputs.finite(name, coordinate) for coordinate in inputs.items(name, point, hint)
+        ]
+        if len(coordinates) != 3:
             raise inputs.rejected(name, point, hint)
-        x, y, z = listed
+        x, y, z = coordinates
         return self._replace(reference_z=z, aside=(x, y))
 
     def at_orders(self, orders: tuple[Order, ...]) -> Request:
@@ -110,9 +112,9 @@ class Request(NamedTuple):
 
     def named(self, quantities: tuple[str, ...], names: tuple[str, ...]) -> tuple[str, ...]:
         """Return the named quantities; if none is named, all with their parts."""
-        known = self.quantities
-        parts = [part for each in known for part in parts_of(each, names)]
-        return check_quantities(quantities, (*known, *parts))
+        existing = self.quantities
+        parts = [part for quantity in existing for part in parts_of(quantity, names)]
+        return check_quantities(quantities, (*existing, *parts))
 
     @staticmethod
     def parts(quantity: str, names: Sequence[str]) -> tuple[str, ...]:
@@ -131,8 +133,8 @@ class Request(NamedTuple):
             names = ("inertia",) if of is None else of.causes
             if not names:
                 raise inputs.rejected("quantity", quantity, f"has no parts here; give {whole!r}")
-            known = [f"{whole}.{each}" for each in self.parts(whole, names)]
-            inputs.one_of("quantity", quantity, known)
+            parts = [f"{whole}.{part}" for part in self.parts(whole, names)]
+            inputs.one_of("quantity", quantity, parts)
         if self._has_torque or kind.planar:
             return
         if self.pairs is not None:
@@ -159,8 +161,8 @@ def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     return core
 
 
-def check_quantities(names: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
+def check_quantities(names: tuple[str, ...], existing: tuple[str, ...]) -> tuple[str, ...]:
     """Return the quantities named, all that are known if none is named."""
     for name in names:
-        inputs.one_of("quantity", name, known)
-    return names or known
+        inputs.one_of("quantity", name, existing)
+    return names or existing

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order, Orders
     from crankpin.model.engine import Engine
 
-HIGHEST = 12
+HIGHEST_DRAWN = 12
 """Highest order of a diagram whose orders are not given."""
 
 
@@ -194,17 +194,19 @@ def star_diagram(
     firing = fires.firing(engine, firing_order, strokes)
     step = 2 if firing.strokes == 2 else 1
     if orders is None:
-        listed = [inputs.order(0.5 * halves) for halves in range(step, 2 * HIGHEST + 1, step)]
+        whole_cycle = [
+            inputs.order(0.5 * halves) for halves in range(step, 2 * HIGHEST_DRAWN + 1, step)
+        ]
     else:
-        listed = inputs.explicit_half_orders(orders)
-    for order in listed:
+        whole_cycle = inputs.explicit_half_orders(orders)
+    for order in whole_cycle:
         if 2 * order % step:
             hint = "the cycle of a two-stroke repeats in every turn; give whole orders"
             raise inputs.rejected("orders", order, hint)
-    if len(set(listed)) < len(listed) or not listed:
-        raise inputs.rejected("orders", listed, "give each order once, one at least")
+    if len(set(whole_cycle)) < len(whole_cycle) or not whole_cycle:
+        raise inputs.rejected("orders", whole_cycle, "give each order once, one at least")
     shape = np.ones(len(engine)) if mode_shape is None else inputs.vector("mode_shape", mode_shape)
     if shape.size != len(engine) or not np.isfinite(shape).all():
         hint = f"give a finite amplitude for each of the {len(engine)} cylinders"
         raise inputs.rejected("mode_shape", mode_shape, hint)
-    return StarDiagram(firing, tuple(listed), tuple(shape.tolist()))
+    return StarDiagram(firing, tuple(whole_cycle), tuple(shape.tolist()))

@@ -57,7 +57,7 @@ class TorsionalExcitation(Labelled):
         return (name, *self._parts(name), *others)
 
     def _parts(self, quantity: str) -> tuple[str, ...]:
-        return tuple(f"{quantity}.{each}" for each in self._named_parts(quantity))
+        return tuple(f"{quantity}.{part}" for part in self._named_parts(quantity))
 
     def _named_parts(self, quantity: str) -> tuple[str, ...]:
         return ("gas", "inertia") if quantity == "crank_torque" else ()
@@ -92,7 +92,9 @@ class TorsionalExcitation(Labelled):
             return np.array(np.broadcast_to(gas, inertia.shape))
         if quantity == "mean_torque":
             of_cylinders = zip(self.engine.cycles or (), self.engine.cylinders, strict=False)
-            means = [each.mean_torque(cylinder) if each else 0.0 for each, cylinder in of_cylinders]
+            means = [
+                cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders
+            ]
             return np.array(means or [0.0] * len(self.engine))
         if quantity == "reciprocating_inertia":
             return _core.mean_inertias(engine_core(self.engine))
@@ -147,8 +149,8 @@ class TorsionalExcitation(Labelled):
 
     def _pressures(self) -> NDArray[np.complex128]:
         scale = [
-            1.0 / (area(each) * each.crank_radius) if fired else 0.0
-            for each, fired in zip(self.engine.cylinders, self._fired, strict=True)
+            1.0 / (area(cylinder) * cylinder.crank_radius) if fired else 0.0
+            for cylinder, fired in zip(self.engine.cylinders, self._fired, strict=True)
         ]
         angles = np.radians(self.engine.firing_deg) if any(self._fired) else np.zeros(len(scale))
         turned = np.exp(1j * np.multiply.outer(angles, np.array(self.orders, dtype=np.float64)))
@@ -157,7 +159,7 @@ class TorsionalExcitation(Labelled):
     @property
     def _fired(self) -> list[bool]:
         cycles = self.engine.cycles
-        return [each is not None for each in cycles or [None] * len(self.engine)]
+        return [cycle is not None for cycle in cycles or [None] * len(self.engine)]
 
     @property
     def table(self) -> Table:
@@ -198,9 +200,11 @@ class TorsionalExcitation(Labelled):
         """Return a table of columns by speed, cylinder and order."""
         speeds, cylinders = np.atleast_1d(self.rpm), range(1, len(self.engine) + 1)
         orders = self.orders * (len(speeds) * len(cylinders))
-        each = np.repeat(cylinders, len(self.orders))
-        before = [Column("speed", np.repeat(speeds, len(each)), "rpm")] if np.ndim(self.rpm) else []
-        before += [Column("cylinder", np.tile(each, len(speeds))), Column("order", orders)]
+        numbers = np.repeat(cylinders, len(self.orders))
+        before = (
+            [Column("speed", np.repeat(speeds, len(numbers)), "rpm")] if np.ndim(self.rpm) else []
+        )
+        before += [Column("cylinder", np.tile(numbers, len(speeds))), Column("order", orders)]
         return Table(title, (*before, *columns), loads=self.loads_counted)
 
     def tangential(self) -> Table:
@@ -212,9 +216,9 @@ class TorsionalExcitation(Labelled):
             Cosine, sine and amplitude of ``tangential_pressure``, bar.
         """
         rows = [
-            (number, order, each.real / 1e5, -each.imag / 1e5, abs(each) / 1e5)
+            (number, order, phasor.real / 1e5, -phasor.imag / 1e5, abs(phasor) / 1e5)
             for number, pressures in enumerate(self.tangential_pressure.tolist(), 1)
-            for order, each in zip(self.orders, pressures, strict=True)
+            for order, phasor in zip(self.orders, pressures, strict=True)
         ]
         return Table.from_rows(
             "Tangential pressure of gas, from each cylinder's firing top dead centre",
@@ -251,8 +255,8 @@ class TorsionalExcitation(Labelled):
             "angular_frequency": self.angular_frequency.tolist(),
             "mean": self.mean_torque.tolist(),
             "reciprocating_inertia": self.reciprocating_inertia.tolist(),
-            **{f"{name}amplitude": np.abs(each).tolist() for name, each in parts.items()},
-            **{f"{name}phase": np.angle(each).tolist() for name, each in parts.items()},
+            **{f"{name}amplitude": np.abs(phasors).tolist() for name, phasors in parts.items()},
+            **{f"{name}phase": np.angle(phasors).tolist() for name, phasors in parts.items()},
         }
 
 
@@ -295,18 +299,18 @@ def torsional_excitation(
     """
     engine_core(engine)
     cycles = engine.cycles
-    listed = orders
-    if listed is None:
+    chosen = orders
+    if chosen is None:
         step = 1 if cycles is None or engine.strokes == 2 else 0.5
-        listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
+        chosen = [step * k for k in range(1, round(HIGHEST / step) + 1)]
     several = inputs.is_listed(rpm)
     speeds = inputs.vector("rpm", rpm) if several else np.array([inputs.number("rpm", rpm)])
     if not len(speeds):
         raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
-    explicit = inputs.explicit_half_orders(listed)
+    explicit = inputs.explicit_half_orders(chosen)
     fastest = float(speeds[np.abs(speeds).argmax()])
     balance = engine.balance(fastest, orders=explicit)
-    for each in speeds.tolist():
+    for speed in speeds.tolist():
         with suppressed():  # Warned of at the highest of them.
-            inputs.angular_speed(each)
+            inputs.angular_speed(speed)
     return TorsionalExcitation(engine, speeds.copy() if several else balance.rpm, balance.orders)

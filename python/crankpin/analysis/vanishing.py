@@ -44,10 +44,10 @@ def vanishing_orders(
     engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
 ) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
-    listed = tuple(inputs.explicit_half_orders(orders))
+    chosen = tuple(inputs.explicit_half_orders(orders))
     plane = inputs.optional_number("reference_z", reference_z)
     checks.place(engine_core(engine), "reference_z", plane)
-    return VanishingOrders(engine, listed, plane)
+    return VanishingOrders(engine, chosen, plane)
 
 
 class Verdicts(Keyed, Tabled):
@@ -234,12 +234,12 @@ class VanishingOrders(Tabled):
     @property
     def force(self) -> Verdicts:
         """Shaking force: verdicts on the whole, and on x, y, forward and backward."""
-        return Verdicts._of_vector({each: self._verdicts("force", each) for each in COMPONENTS})
+        return Verdicts._of_vector({axis: self._verdicts("force", axis) for axis in COMPONENTS})
 
     @property
     def moment(self) -> Verdicts:
         """Rocking moment: verdicts on the whole, on x (pitch), y (yaw), forward and backward."""
-        return Verdicts._of_vector({each: self._verdicts("moment", each) for each in COMPONENTS})
+        return Verdicts._of_vector({axis: self._verdicts("moment", axis) for axis in COMPONENTS})
 
     @property
     def torque(self) -> Verdicts:

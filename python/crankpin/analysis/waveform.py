@@ -122,8 +122,8 @@ class Waveform(OverAngle[float]):
         # Inertia makes the rest.
         rest = {name: values for name, values in by_name.items() if values is not None}
         for part, (of_planar, of_torques) in parts:
-            own = (*(of_planar or (None, None)), *(of_torques or (None, None)))
-            for name, values in zip(QUANTITIES, own, strict=True):
+            buffers = (*(of_planar or (None, None)), *(of_torques or (None, None)))
+            for name, values in zip(QUANTITIES, buffers, strict=True):
                 if name in rest:
                     by_name[f"{name}.{part}"] = zeros[rest[name].ndim] if values is None else values
                     rest[name] = rest[name] if values is None else rest[name] - values

@@ -23,7 +23,17 @@ if TYPE_CHECKING:
 
     from crankpin.cli.options import Commands
 
-FIRST = ("presets", "new", "balance", "explain", "compare", "sweep", "rank", "firing", "star")
+FIRST_COMMANDS = (
+    "presets",
+    "new",
+    "balance",
+    "explain",
+    "compare",
+    "sweep",
+    "rank",
+    "firing",
+    "star",
+)
 """Commands that the help lists before the others."""
 _NAMED = re.compile(r'^@command\(\s*"([\w-]+)"', re.MULTILINE)
 
@@ -35,7 +45,7 @@ def _homes() -> dict[str, str]:
     modules are imported.
     """
     homes = dict[str, str]()
-    for module in sorted(each.name for each in pkgutil.iter_modules(__path__)):
+    for module in sorted(module_info.name for module_info in pkgutil.iter_modules(__path__)):
         try:
             source = Path(__file__).with_name(f"{module}.py").read_text(encoding="utf-8")
         except OSError:
@@ -44,7 +54,7 @@ def _homes() -> dict[str, str]:
         else:
             names = _NAMED.findall(source)
         homes |= dict.fromkeys(names, module)
-    return {name: homes[name] for name in (*FIRST, *homes)}
+    return {name: homes[name] for name in (*FIRST_COMMANDS, *homes)}
 
 
 ORDER = _homes()
@@ -76,9 +86,9 @@ def _text(argv: Sequence[str] | None) -> str:
     typed = [*(sys.argv[1:] if argv is None else argv)]
     if typed[:2] == ["mounts", "fit"]:
         typed[:2] = ["mounts-fit"]
-    for each in typed:
-        if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
-            raise rejected(each.removesuffix("=--"), "--", "give a value")
+    for word in typed:
+        if word.startswith("--") and word.endswith("=--"):  # on which argparse fails
+            raise rejected(word.removesuffix("=--"), "--", "give a value")
     try:
         names = [name for name in typed[:1] if name in ORDER] or ORDER
         arguments = _parser(names).parse_args(typed)
@@ -89,13 +99,13 @@ def _text(argv: Sequence[str] | None) -> str:
     with warnings.catch_warnings():
         warnings.showwarning = _Warnings(arguments)
         try:
-            given = Given(arguments, typed)
+            call = Given(arguments, typed)
             with units.units(vars(arguments).get("units") or ""):
-                printed = outputs.shown(given, arguments.run)
+                printed = outputs.shown(call, arguments.run)
         except InputError as error:
             raise error_in_options(error, arguments.options, vars(arguments)) from None
-        for each in given.said:
-            outputs.say(each)
+        for word in call.said:
+            outputs.say(word)
         return printed
 
 
@@ -106,7 +116,7 @@ class _Warnings:
         self._arguments, self._of_units = arguments, False
 
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
-        of_units = checks.UNITS in str(message)
+        of_units = checks.UNITS_ASSUMED in str(message)
         if not (of_units and self._of_units):
             options, typed = self._arguments.options, vars(self._arguments)
             outputs.say(f"warning: {warning_in_options(str(message), options, typed)}")

@@ -20,7 +20,7 @@ from crankpin.model.cylinder import slider_crank_harmonics
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-HIGHEST = 12
+HIGHEST_PRINTED = 12
 """Highest order of the harmonics that are printed without ``--orders``."""
 
 
@@ -37,19 +37,19 @@ HIGHEST = 12
     "--rpm --orders --rtol --quantity --reference-z --spectrum --units --csv --plot",
     example="compare i4 i4-crossplane --rpm 6000 --plot both.png",
 )
-def _compare(given: Given) -> Shown:
-    names = given.text("names")
+def _compare(call: Given) -> Shown:
+    names = call.text("names")
     lumped = names[1:] == [LUMPED]
-    engines = [*given.engines(names[:1] if lumped else None).values()]
+    engines = [*call.engines(names[:1] if lumped else None).values()]
     if len(engines) != (1 if lumped else 2):
         several = "engine" if len(engines) == 1 else "engines"
         raise inputs.faulty("NAME", f"stands for {len(engines)} {several}", "give two")
     before, after = engines[0], engines[-1]
-    rpm = given.number("--rpm", "rpm")
+    rpm = call.number("--rpm", "rpm")
     comparison = compare(
-        before, LUMPED if lumped else after, rpm, spectrum=given.spectrum(), **given.chosen()
+        before, LUMPED if lumped else after, rpm, spectrum=call.spectrum(), **call.chosen()
     )
-    return Shown(comparison.frames, comparison, {"quantity": given.quantity(engines)})
+    return Shown(comparison.frames, comparison, {"quantity": call.quantity(engines)})
 
 
 @command(
@@ -65,10 +65,10 @@ def _compare(given: Given) -> Shown:
     "--csv --plot",
     example="flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
 )
-def _flywheel(given: Given) -> Shown:
-    engine, note = fired(given, "flywheel")
-    found = flywheel(engine, given.number("--rpm", "rpm"), **given.keywords(flywheel))
-    return Shown(found.frames, found, note=note)
+def _flywheel(call: Given) -> Shown:
+    engine, note = fired(call, "flywheel")
+    wheel = flywheel(engine, call.number("--rpm", "rpm"), **call.keywords(flywheel))
+    return Shown(wheel.frames, wheel, note=note)
 
 
 @command(
@@ -80,9 +80,9 @@ def _flywheel(given: Given) -> Shown:
     "--csv --plot",
     example="star i6 --orders 0.5,1.5,3 --mode-shape 1,0.95,0.86,0.73,0.57,0.39",
 )
-def _star(given: Given) -> Shown:
-    orders = None if given.text("--orders") is None else given.orders()
-    star = star_diagram(given.engine("star"), orders, **given.keywords(star_diagram))
+def _star(call: Given) -> Shown:
+    orders = None if call.text("--orders") is None else call.orders()
+    star = star_diagram(call.engine("star"), orders, **call.keywords(star_diagram))
     return Shown(star.frames, star)
 
 
@@ -99,10 +99,10 @@ def _star(given: Given) -> Shown:
     "--reference-z --units",
     example="closed-form i3 --order 1",
 )
-def _closed_form(given: Given) -> str:
-    engine = given.engine("closed-form")
-    quantity: Any = given.quantity([engine])
-    return f"{engine.closed_form(given.whole('--order'), quantity)!r}\n"
+def _closed_form(call: Given) -> str:
+    engine = call.engine("closed-form")
+    quantity: Any = call.quantity([engine])
+    return f"{engine.closed_form(call.whole('--order'), quantity)!r}\n"
 
 
 @command(
@@ -113,10 +113,10 @@ def _closed_form(given: Given) -> str:
     option("--solution", action="store_true", help="print the solution too"),
     example="exercise v-angle --seed 7 --solution",
 )
-def _exercise(given: Given) -> str:
-    topic = inputs.one_of("TOPIC", given.text("topic"), TOPICS)
-    sheet = exercise(topic, given.whole("--seed"))
-    solution = f"\n{sheet.solution}\n" if given.text("--solution") else ""
+def _exercise(call: Given) -> str:
+    topic = inputs.one_of("TOPIC", call.text("topic"), TOPICS)
+    sheet = exercise(topic, call.whole("--seed"))
+    solution = f"\n{sheet.solution}\n" if call.text("--solution") else ""
     return f"{sheet}\n{solution}"
 
 
@@ -134,39 +134,41 @@ def _exercise(given: Given) -> str:
     example="harmonics 0.3 --orders 1,2,4,6",
     note="The force along the bore is m·r·ω² times the sum of aₙ·cos(n·θ + phase).",
 )
-def _harmonics(given: Given) -> Shown:
-    offset = given.optional("--pin-offset", "m")
-    ratio, radius = _ratio(given)
-    listed: Any = [*range(1, HIGHEST + 1)] if given.text("--orders") is None else given.orders()
+def _harmonics(call: Given) -> Shown:
+    offset = call.optional("--pin-offset", "m")
+    ratio, radius = _ratio(call)
+    orders: Any = (
+        [*range(1, HIGHEST_PRINTED + 1)] if call.text("--orders") is None else call.orders()
+    )
     if offset is not None and radius is None:
-        raise rejected("--pin-offset", given.text("--pin-offset"), "needs --stroke")
+        raise rejected("--pin-offset", call.text("--pin-offset"), "needs --stroke")
     if offset is None or radius is None:
-        found = slider_crank_harmonics(ratio, listed).astype(complex)
+        harmonics = slider_crank_harmonics(ratio, orders).astype(complex)
     else:
-        found = slider_crank_harmonics(ratio, listed, offset / radius)
-    phases = np.where(found == 0.0, 0.0, np.angle(found, deg=True))
+        harmonics = slider_crank_harmonics(ratio, orders, offset / radius)
+    phases = np.where(harmonics == 0.0, 0.0, np.angle(harmonics, deg=True))
     title = f"Slider-crank, rod ratio {ratio:.6g}"
-    title += "" if offset is None else f", pin offset {given.echo('--pin-offset', 'm')}"
+    title += "" if offset is None else f", pin offset {call.echo('--pin-offset', 'm')}"
     table = Table.from_rows(
         title,
         ["order", "amplitude", ("phase", "°")],
-        [(n, float(abs(a)), float(p)) for n, a, p in zip(listed, found, phases, strict=True)],
+        [(n, float(abs(a)), float(p)) for n, a, p in zip(orders, harmonics, phases, strict=True)],
     )
     return Shown(only(table))
 
 
-def _ratio(given: Given) -> tuple[float, float | None]:
+def _ratio(call: Given) -> tuple[float, float | None]:
     """Return the rod ratio, and the crank radius, m, if it is known."""
-    typed = given.text("ratio")
-    stroke, length = given.optional("--stroke", "m"), given.optional("--rod-length", "m")
+    typed = call.text("ratio")
+    stroke, length = call.optional("--stroke", "m"), call.optional("--rod-length", "m")
     if (typed is None) == (stroke is None or length is None):
         raise inputs.faulty("RATIO", "is left out", "give it, or --stroke and --rod-length")
     if stroke is not None and length is not None:
         if not length > 0.0:
-            raise rejected("--rod-length", given.text("--rod-length"), "give a length above 0")
+            raise rejected("--rod-length", call.text("--rod-length"), "give a length above 0")
         return 0.5 * stroke / length, 0.5 * stroke
     above, _, below = typed.partition("/")
-    divisor = given.one("RATIO", below or "1", "")
+    divisor = call.one("RATIO", below or "1", "")
     if not divisor:
         raise rejected("RATIO", typed, "give a number between 0 and 1, such as 0.3 or 1/3.5")
-    return given.one("RATIO", above, "") / divisor, None
+    return call.one("RATIO", above, "") / divisor, None

@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 1_000_000
 """Largest number of rows in a table."""
-PICTURES = (".pdf", ".png", ".svg")
+PICTURE_ENDINGS = (".pdf", ".png", ".svg")
 
 # --- units --------------------------------------------------------------------------------------
 
-UNITS: dict[str, units.Dimension] = {
+TYPED_UNITS: dict[str, units.Dimension] = {
     "kg": (1, 0, 0, 0),
     "m": (0, 1, 0, 0),
     "kg·m": (1, 1, 0, 0),
@@ -108,22 +108,22 @@ class Given:
         And whether it is a list. A decimal comma that is read as a point is said.
         """
         # Plain moments of inertia stay in kg·m²: no flywheel is weighed in g·mm².
-        has_setting = unit in UNITS and unit != "kg·m²"
+        has_setting = unit in TYPED_UNITS and unit != "kg·m²"
         plain = units.convert(unit, self._setting).unit if has_setting else ""
         values, word, is_listed, point = _core.read_numbers(
             flag, text, unit, form=form, plain=plain, what=what, infinite=infinite
         )
         if point is not None:
             self.said.append(f"{flag} {text.strip()} is read as {point}")
-        if word and unit in UNITS and (name := units.symbol(word)) is not None:
-            self.written.setdefault(UNITS[unit], name)
+        if word and unit in TYPED_UNITS and (name := units.symbol(word)) is not None:
+            self.written.setdefault(TYPED_UNITS[unit], name)
         return values, is_listed
 
     def echo(self, flag: str, unit: str) -> str:
         """Return what was typed, with the unit that a plain number has."""
         text: str = self.text(flag)
-        own = re.search(r"[^\d\s.,=:eE+/-]", text)
-        return text if own else f"{text} {units.convert(unit, self._setting).unit}"
+        has_unit = re.search(r"[^\d\s.,=:eE+/-]", text)
+        return text if has_unit else f"{text} {units.convert(unit, self._setting).unit}"
 
     def number(self, flag: str, unit: str = "") -> float:
         """Return the number of an option that has one."""
@@ -184,7 +184,7 @@ class Given:
         """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
         typed: dict[str, Engine] = {}
         for name in names or self._typed.get("names") or [self.text("name")]:
-            if Path(name).suffix.lower() in engine_files.ENDINGS:
+            if Path(name).suffix.lower() in engine_files.ENGINE_ENDINGS:
                 typed[name] = Engine.load(name)
                 continue
             for member in presets.family(name):
@@ -212,7 +212,7 @@ class Given:
         name, _, rest = text.partition(":")
         fields = dict[str, Any]()
         for part in re.split(r"\s+(?=\w+=)", rest.strip()):
-            key, _, value = (each.strip() for each in part.partition("="))
+            key, _, value = (side.strip() for side in part.partition("="))
             if key not in LOAD_FIELDS or not value:
                 hint = f'give "NAME: on=shaft force=2:8 z=-0.1", of {", ".join(LOAD_FIELDS)}'
                 raise rejected(flag, text, hint)
@@ -222,8 +222,8 @@ class Given:
                 rows = _core.read_amplitudes(flag, value, unit, plain)
                 fields[argument] = of_rows(rows, table=any(len(row) > 3 for row in rows))
             elif unit:
-                listed = [self.one(flag, each, unit) for each in value.split("/")]
-                fields[argument] = listed if len(listed) > 1 else listed[0]
+                numbers = [self.one(flag, part, unit) for part in value.split("/")]
+                fields[argument] = numbers if len(numbers) > 1 else numbers[0]
             else:
                 fields[argument] = {"yes": True, "no": False}.get(value, value)
         if "on" not in fields:
@@ -247,17 +247,17 @@ class Given:
 
     def engine(self, command: str) -> Engine:
         """Return the engine of a command that takes one."""
-        found = self.engines()
-        if len(found) > 1:
+        engines = self.engines()
+        if len(engines) > 1:
             name = self.text("name")
             members = ", ".join(presets.family(name))
             raise rejected("NAME", name, f"{command} takes one engine of {members}")
-        return next(iter(found.values()))
+        return next(iter(engines.values()))
 
     def quantity(self, engines: Iterable[Engine]) -> str:
         """Return ``--quantity``; by default moment, or force if no cylinder has a lever."""
         typed: str | None = self.text("--quantity")
-        return typed or ("moment" if any(np.ptp(each.z) for each in engines) else "force")
+        return typed or ("moment" if any(np.ptp(engine.z) for engine in engines) else "force")
 
     def orders(self) -> Orders:
         """Return the orders of ``--orders``, or "auto"."""
@@ -271,12 +271,12 @@ class Given:
 
     def chosen(self) -> dict[str, Any]:
         """Return orders, or "auto", and the tolerance by which they are chosen, if it is given."""
-        listed = self.orders()
+        orders = self.orders()
         if self.text("--rtol") is None:
-            return {"orders": listed}
-        if listed != "auto":
+            return {"orders": orders}
+        if orders != "auto":
             raise rejected("--rtol", self.text("--rtol"), "needs --orders auto")
-        return {"orders": listed, "rtol": self.number("--rtol")}
+        return {"orders": orders, "rtol": self.number("--rtol")}
 
     def spectrum(self) -> Spectrum | None:
         """Return the spectrum of ``--spectrum``, order → amplitude in kg·m, if it is given."""
@@ -298,9 +298,9 @@ class Given:
         """Return the arguments of a function that were typed, read as it declares them."""
         plain = inspect.unwrap(function)
         return {
-            each.argument: self.value(each)
-            for each in self.options
-            if each.function is plain and self._typed[each.dest] not in (None, False)
+            option.argument: self.value(option)
+            for option in self.options
+            if option.function is plain and self._typed[option.dest] not in (None, False)
         }
 
     def value(self, option: Option) -> Any:  # noqa: ANN401 - of any type
@@ -325,9 +325,9 @@ class Given:
     def angles(self, flag: str, _: str = "°", *, text: str | None = None) -> list[str]:
         """Return angles as text, which may be fractions."""
         text = self.text(flag) if text is None else text
-        typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
-        angles = [inputs.angle(flag, each) for each in typed]
-        decimals = [float(each) for each in typed if "." in each and "/" not in each]
+        typed = [part.strip().removesuffix("deg").rstrip("°") for part in text.split(",")]
+        angles = [inputs.angle(flag, text) for text in typed]
+        decimals = [float(text) for text in typed if "." in text and "/" not in text]
         checks.radians(flag, text, decimals)
         return angles
 
@@ -340,8 +340,8 @@ class Given:
         if (text := self._typed.get("plot")) is None:
             return None
         path = Path(text)
-        if path.suffix.lower() not in PICTURES:
-            hint = f"a picture's name ends in {', '.join(PICTURES)}"
+        if path.suffix.lower() not in PICTURE_ENDINGS:
+            hint = f"a picture's name ends in {', '.join(PICTURE_ENDINGS)}"
             raise rejected("--plot", text, hint)
         return path
 
@@ -363,10 +363,10 @@ class Given:
 READERS: tuple[tuple[str, Callable[[Given, str, str], Any]], ...] = (
     (r"^sequence of number or str", Given.angles),
     (r"^number(,| or) str", Given.angle),
-    (r"^(str|path)", lambda given, flag, _: given.text(flag)),
-    (r"sequence of int|iterable of int", lambda given, flag, _: given.whole_numbers(flag)),
-    (r"^(int|\{-?\d)", lambda given, flag, _: given.whole(flag)),
-    (r"^array_like$", lambda given, flag, unit: given.one_or_several(flag, unit)),
+    (r"^(str|path)", lambda call, flag, _: call.text(flag)),
+    (r"sequence of int|iterable of int", lambda call, flag, _: call.whole_numbers(flag)),
+    (r"^(int|\{-?\d)", lambda call, flag, _: call.whole(flag)),
+    (r"^array_like$", lambda call, flag, unit: call.one_or_several(flag, unit)),
     (r"^(array_like|pair of float|sequence of float)", Given.numbers),
     (r"", Given.number),
 )

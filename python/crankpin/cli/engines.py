@@ -18,7 +18,7 @@ from crankpin.view.gallery import save_gallery
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
-MOST_SHOWN = 20
+MOST_FIRING_ORDERS = 20
 """Largest number of firing orders in a table; CSV has all."""
 
 
@@ -40,15 +40,15 @@ def _presets(_: Given) -> Shown:
     option("--plot", help="write the chart of strokes (.pdf, .png, .svg)"),
     example="firing v8-crossplane --plot v8.png",
 )
-def _firing(given: Given) -> Shown:
-    engine = given.engine("firing")
-    strokes = None if given.text("--strokes") is None else int(given.text("--strokes"))
-    if given.text("--all") or (given.text("--firing-order") is None and not engine.firing_order):
-        if given.text("--plot") is not None:
-            raise rejected("--plot", given.text("--plot"), "needs --firing-order")
-        return _firing_orders(engine, strokes, csv=given.text("--csv"))
-    ways = engine.firing_schedules(given.text("--firing-order"), strokes=strokes)
-    best = engine.firing(given.text("--firing-order"), strokes=strokes)
+def _firing(call: Given) -> Shown:
+    engine = call.engine("firing")
+    strokes = None if call.text("--strokes") is None else int(call.text("--strokes"))
+    if call.text("--all") or (call.text("--firing-order") is None and not engine.firing_order):
+        if call.text("--plot") is not None:
+            raise rejected("--plot", call.text("--plot"), "needs --firing-order")
+        return _firing_orders(engine, strokes, csv=call.text("--csv"))
+    ways = engine.firing_schedules(call.text("--firing-order"), strokes=strokes)
+    best = engine.firing(call.text("--firing-order"), strokes=strokes)
     others = "".join(f"  {way.intervals_text}\n" for way in ways[1:])
     note = f"The same order in other turns, intervals in degrees:\n{others}" if others else ""
     return Shown(best.frames, best, note=note)
@@ -56,20 +56,20 @@ def _firing(given: Given) -> Shown:
 
 def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     firings = engine.firing_orders(strokes=strokes)
-    shown = firings if csv else firings[:MOST_SHOWN]
-    listed = [
-        (each.firing_order, "even" if each.even and not csv else each.intervals_text)
-        for each in shown
+    first = firings if csv else firings[:MOST_FIRING_ORDERS]
+    rows_of_texts = [
+        (firing.firing_order, "even" if firing.even and not csv else firing.intervals_text)
+        for firing in first
     ]
-    rows = np.array([[each.unevenness_deg] for each in shown])
+    rows = np.array([[firing.unevenness_deg] for firing in first])
     name = labels.name_of(engine)
     table = Table.from_rows(
         f"{name}: {firings[0].strokes}-stroke, most even first",
         ["firing order", ("intervals", "°"), ("rms from even", "°")],
-        listed,
+        rows_of_texts,
         rows,
     )
-    rest = len(firings) - len(shown)
+    rest = len(firings) - len(first)
     return Shown(only(table), note=f"and {rest} more: --csv prints all\n" if rest else "")
 
 
@@ -90,16 +90,16 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     "--controls --reference-z --spectrum --units",
     example="view v8-crossplane --out v8.html",
 )
-def _view(given: Given) -> str:
+def _view(call: Given) -> str:
     """Write the page; return what the command prints."""
-    engine = given.engine("view")
-    file = Path(given.text("--out"))
+    engine = call.engine("view")
+    file = Path(call.text("--out"))
     engine.save_html(
         file,
-        rpm=given.number("--rpm", "rpm"),
-        spectrum=given.spectrum(),
-        **given.keywords(Engine.save_html),
-        controls=given.names("--controls"),
+        rpm=call.number("--rpm", "rpm"),
+        spectrum=call.spectrum(),
+        **call.keywords(Engine.save_html),
+        controls=call.names("--controls"),
     )
     return f"{file}: {file.stat().st_size / 1e3:.0f} kB\n"
 
@@ -113,8 +113,8 @@ def _view(given: Given) -> str:
     option("--rpm", help="crank speed at first (default: %(default)s)"),
     example="gallery --out engines",
 )
-def _gallery(given: Given) -> str:
+def _gallery(call: Given) -> str:
     """Write the pages; return what the command prints."""
-    files = save_gallery(given.text("--out"), rpm=given.number("--rpm", "rpm"))
+    files = save_gallery(call.text("--out"), rpm=call.number("--rpm", "rpm"))
     size = sum(file.stat().st_size for file in files)
     return f"{files[0]}: {len(files) - 1} engines, {size / 1e6:.1f} MB\n"

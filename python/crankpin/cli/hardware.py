@@ -32,7 +32,7 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     keyword(
         counterweights,
         "planes",
-        read=lambda given, _: planes_of(given),
+        read=lambda call, _: planes_of(call),
         metavar=PLANES,
         help="where weights can be: at the first and last cylinder, at both webs of every throw, "
         "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: webs)",
@@ -43,7 +43,7 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     keyword(
         counterweights,
         "angles_deg",
-        read=lambda given, flag: given.range(flag, "°"),
+        read=lambda call, flag: call.range(flag, "°"),
         metavar="RANGE",
         more=": 0,90,180,270 or 0:345:15",
     ),
@@ -54,26 +54,26 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
     note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
     "Residuals are in kg·m and kg·m², to be multiplied by ω².",
 )
-def _counterweights(given: Given) -> Shown:
-    engine = given.engine("counterweights")
-    fit = counterweights(engine, **given.keywords(counterweights))
+def _counterweights(call: Given) -> Shown:
+    engine = call.engine("counterweights")
+    fit = counterweights(engine, **call.keywords(counterweights))
     return Shown(fit.frames, fit, engine=fit.fitted)
 
 
-def planes_of(given: Given) -> Planes:
+def planes_of(call: Given) -> Planes:
     """Return the planes of ``--planes``."""
-    text: str = given.text("--planes")
+    text: str = call.text("--planes")
     if text in ("ends", "webs"):
         return text
     parts = [part.rpartition("=") for part in text.split(",")]
     named = [name for name, equals, _ in parts if equals]
     if not named:
         what = "ends, webs, or places in m, such as 0,0.4"
-        return given.listed("--planes", text, "m", what)
+        return call.listed("--planes", text, "m", what)
     if len(set(named)) < len(parts):
         hint = "give ends, webs, places, or a name of its own for each place"
         raise rejected("--planes", text, hint)
-    return {name.strip(): given.one("--planes", z, "m") for name, _, z in parts}
+    return {name.strip(): call.one("--planes", z, "m") for name, _, z in parts}
 
 
 def mass(flag: str, what: str) -> Option:
@@ -95,26 +95,26 @@ def mass(flag: str, what: str) -> Option:
     example="bob-weight v8-crossplane --rotating-mass 550g --reciprocating-mass 620g --oil 4g",
     note="Masses are those of one cylinder, by default the engine's.",
 )
-def _bob_weight(given: Given) -> Shown:
-    engine = given.engine("bob-weight")
-    if (moving := given.optional("--reciprocating-mass", "kg")) is not None:
-        cylinders = [each.replace(reciprocating_mass=moving) for each in engine.cylinders]
+def _bob_weight(call: Given) -> Shown:
+    engine = call.engine("bob-weight")
+    if (moving := call.optional("--reciprocating-mass", "kg")) is not None:
+        cylinders = [cylinder.replace(reciprocating_mass=moving) for cylinder in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
-    if (turning := given.optional("--rotating-mass", "kg")) is not None:
+    if (turning := call.optional("--rotating-mass", "kg")) is not None:
         engine = engine.replace(rotating_mass=turning)
-    bob = bob_weight(engine, **given.keywords(bob_weight))
+    bob = bob_weight(engine, **call.keywords(bob_weight))
     return Shown(bob.frames, bob, engine=bob.fitted)
 
 
-def _coordinates(given: Given, flag: str) -> float | list[float | None]:
+def _coordinates(call: Given, flag: str) -> float | list[float | None]:
     """Return one number for all shafts, or one for each, None where it is left out."""
-    text = given.text(flag)
+    text = call.text(flag)
     if "," not in text:
-        return given.number(flag, "m")
+        return call.number(flag, "m")
     parts = text.split(",")
     if all(part.strip() for part in parts):
-        return [*given.listed(flag, text, "m")]
-    return [given.one(flag, part, "m") if part.strip() else None for part in parts]
+        return [*call.listed(flag, text, "m")]
+    return [call.one(flag, part, "m") if part.strip() else None for part in parts]
 
 
 def _axis(flag: str, where: str) -> Option:
@@ -135,7 +135,7 @@ def _axis(flag: str, where: str) -> Option:
     keyword(
         balance_shafts,
         "ratios",
-        read=lambda given, flag: given.names(flag),
+        read=lambda call, flag: call.names(flag),
         metavar="N,…",
         help="speed of each shaft over crank speed: -1, 2,-2 or 1/2",
     ),
@@ -172,27 +172,27 @@ def _axis(flag: str, where: str) -> Option:
     note="Without --ratios, sets of counterweights and shafts are compared; with it, these\n"
     "shafts are fitted. Write values that begin with a minus as --ratios=-2,2.",
 )
-def _shafts(given: Given) -> Shown:
-    engine = given.engine("shafts")
-    fits = given.text("--ratios") is not None
+def _shafts(call: Given) -> Shown:
+    engine = call.engine("shafts")
+    fits = call.text("--ratios") is not None
     for name in OF_OPTIONS if fits else OF_A_FIT:
-        if given.text(name) is not None and not (name == "--rpm" and engine.fired):
+        if call.text(name) is not None and not (name == "--rpm" and engine.fired):
             what = "is of the comparison without" if fits else "needs"
             raise inputs.faulty(name, f"{what} --ratios", "leave it out" if fits else "give them")
-    return _fit(engine, given) if fits else _compare(engine, given)
+    return _fit(engine, call) if fits else _compare(engine, call)
 
 
-def _fit(engine: Engine, given: Given) -> Shown:
-    fit = balance_shafts(engine, **given.keywords(balance_shafts))
-    return Shown(fit.frames, fit, {"quantity": given.quantity([engine])}, fit.fitted)
+def _fit(engine: Engine, call: Given) -> Shown:
+    fit = balance_shafts(engine, **call.keywords(balance_shafts))
+    return Shown(fit.frames, fit, {"quantity": call.quantity([engine])}, fit.fitted)
 
 
-def _compare(engine: Engine, given: Given) -> Shown:
-    targets, relative = _targets(given)
-    saved = given.text("--save") is not None
+def _compare(engine: Engine, call: Given) -> Shown:
+    targets, relative = _targets(call)
+    saved = call.text("--save") is not None
     if saved and targets is None:
-        raise rejected("--save", given.text("--save"), "needs --ratios or --target")
-    rpm, by = given.optional("--rpm", "rpm"), given.text("--by")
+        raise rejected("--save", call.text("--save"), "needs --ratios or --target")
+    rpm, by = call.optional("--rpm", "rpm"), call.text("--by")
     options = balancer_options(
         engine,
         rpm=3000.0 if rpm is None else rpm,
@@ -204,9 +204,9 @@ def _compare(engine: Engine, given: Given) -> Shown:
     return Shown(options.frames, options, engine=options.fitted if saved else None)
 
 
-def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
+def _targets(call: Given) -> tuple[dict[str, float] | None, bool]:
     """Return objective → value, and whether values are parts of the engine's own."""
-    text = given.text("--target")
+    text = call.text("--target")
     if text is None:
         return None, False
     hint = "give OBJECTIVE=VALUE, such as total.moment.peak=300 or total.moment.peak=5%"
@@ -216,5 +216,5 @@ def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
     per_cent = {value.strip().endswith("%") for _, _, value in pairs}
     if len(per_cent) > 1:
         raise rejected("--target", text, "give all values in %, or none")
-    values = {name.strip(): given.one("--target", value, "") for name, _, value in pairs}
+    values = {name.strip(): call.one("--target", value, "") for name, _, value in pairs}
     return values, per_cent == {True}

@@ -12,7 +12,7 @@ from crankpin._support.frames import Frames
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.bearings import AXES, bearing_loads
+from crankpin.analysis.bearings import REFERENCE_AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-def _columns(given: Given, flag: str) -> list[int | str]:
+def _columns(call: Given, flag: str) -> list[int | str]:
     """Return columns by number or name."""
-    parts = (part.strip() for part in given.text(flag).split(","))
+    parts = (part.strip() for part in call.text(flag).split(","))
     return [int(part) if part.isdecimal() else part for part in parts]
 
 
@@ -61,7 +61,7 @@ def _of_files(group: str, **tdc: Any) -> tuple[Option, ...]:  # noqa: ANN401 - s
 
 OF_A_FILE = _of_files("the file of --cycle")
 """Options that need a file of ``--cycle``."""
-WITHOUT = "none"
+WITHOUT_GAS = "none"
 """Value of ``--cycle`` for no gas pressure."""
 ON = {"crank": "crank_torque", "block": "torque"}
 """Body on which a torque acts → its quantity."""
@@ -90,14 +90,14 @@ ON = {"crank": "crank_torque", "block": "torque"}
     note="Order n is |T|·cos(n·θ + phase), θ the crank angle: cylinder 1 is at top dead centre\n"
     "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
-def _torque(given: Given) -> Shown:
-    engine, note = fired(given, "torque")
-    chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
-    balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
-    drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
+def _torque(call: Given) -> Shown:
+    engine, note = fired(call, "torque")
+    chosen, rpm = call.chosen(), call.number("--rpm", "rpm")
+    balance, quantity = engine.balance(rpm, **chosen), ON[call.text("--on")]
+    drawn = balance if call.text("--picture") == "spectrum" else engine.waveform(rpm)
     table = getattr(balance, quantity).table
     title = units.Text(f"{labels.name_of(engine)} at {rpm:g} rpm: ", table.title)
-    table = table if given.text("--csv") else in_short(table, balance, quantity)
+    table = table if call.text("--csv") else in_short(table, balance, quantity)
     rest = left_out(balance) if chosen["orders"] == "auto" else ""
     return Shown(
         only(changed(table, title=title)),
@@ -126,7 +126,7 @@ def _torque(given: Given) -> Shown:
     ),
     option(
         "--axes",
-        choices=AXES,
+        choices=REFERENCE_AXES,
         default="engine",
         help="axes of a polar picture (default: %(default)s)",
     ),
@@ -136,48 +136,51 @@ def _torque(given: Given) -> Shown:
     example="bearings i4 --rpm 6000 --load crankpin --axes crank --plot pin.png",
     note="Main bearings share the loads between them by the lever rule.",
 )
-def _bearings(given: Given) -> Shown:
-    engine, note = fired(given, "bearings")
-    kind = given.text("--picture")
-    loads = bearing_loads(engine, given.number("--rpm", "rpm"))
-    known = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
-    options = {name: given.text(f"--{name}") for name in known}
+def _bearings(call: Given) -> Shown:
+    engine, note = fired(call, "bearings")
+    kind = call.text("--picture")
+    loads = bearing_loads(engine, call.number("--rpm", "rpm"))
+    accepted = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
+    options = {name: call.text(f"--{name}") for name in accepted}
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
 
 
-def fired(given: Given, name: str) -> tuple[Engine, str]:
+def fired(call: Given, name: str) -> tuple[Engine, str]:
     """Return the engine, with gas pressure unless there is none, and a note of what was assumed."""
-    engine: Engine = given.engine(name)
-    typed: Any = given.text("--cycle")
-    if (order := given.text("--firing-order")) is not None:
+    engine: Engine = call.engine(name)
+    typed: Any = call.text("--cycle")
+    if (order := call.text("--firing-order")) is not None:
         engine = engine.replace(firing_order=order)
     kind, _, load = (typed or "").partition(":")
-    named = typed is None or kind in EXAMPLES or typed == WITHOUT
-    of_a_file = [each.label for each in OF_A_FILE if given.text(each.label)]
+    named = typed is None or kind in EXAMPLES or typed == WITHOUT_GAS
+    of_a_file = [option.label for option in OF_A_FILE if call.text(option.label)]
     if of_a_file and named:
         raise inputs.faulty(of_a_file[0], "needs a file of --cycle", "give its path")
-    bore, crankcase = given.optional("--bore", "m"), given.optional("--crankcase", "Pa")
+    bore, crankcase = call.optional("--bore", "m"), call.optional("--crankcase", "Pa")
     if typed is None and engine.fired:
-        cylinders = [each if bore is None else each.replace(bore=bore) for each in engine.cylinders]
+        cylinders = [
+            cylinder if bore is None else cylinder.replace(bore=bore)
+            for cylinder in engine.cylinders
+        ]
         return engine.replace(cylinder=cylinders, crankcase=crankcase), ""
-    if typed == WITHOUT:
+    if typed == WITHOUT_GAS:
         for flag, figure in (("--bore", bore), ("--crankcase", crankcase)):
             if figure is not None:
                 hint = "needs gas pressure; give --cycle"
-                raise rejected(flag, given.text(flag), hint)
+                raise rejected(flag, call.text(flag), hint)
         return engine.with_cycle(None), ""
     if not named and not Path(typed).suffix:
-        hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT}, or a text file"
+        hint = f"give {' or '.join(EXAMPLES)} for an example, {WITHOUT_GAS}, or a text file"
         raise rejected("--cycle", typed, hint)
     strokes = engine.strokes
     if named:
-        part = given.one("--cycle", load, "", "a part of full load") if load else 1.0
+        part = call.one("--cycle", load, "", "a part of full load") if load else 1.0
         if not 0.0 <= part <= 1.0:
             raise rejected("--cycle", typed, "give a part of full load, 0 (idling) to 1")
         example: Any = kind or next(iter(EXAMPLES))
         cycle = Cycle.example(example, load=part, strokes=strokes)
     else:
-        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(given, strokes))
+        cycle = _loaded(Cycle.load, "--cycle", typed, _read_as(call, strokes))
     cylinders, note = _with_bores(engine, bore)
     try:
         driven = engine.replace(cylinder=cylinders).with_cycle(cycle, crankcase=crankcase)
@@ -191,10 +194,15 @@ def fired(given: Given, name: str) -> tuple[Engine, str]:
 def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str]:
     """Return the cylinders with the bore typed, and a note where one had to be assumed."""
     if bore is not None:
-        return [each.replace(bore=bore) for each in engine.cylinders], ""
-    cylinders = [each.replace(bore=each.bore or each.stroke) for each in engine.cylinders]
-    known = all(each.bore for each in engine.cylinders)
-    return cylinders, "" if known else "Bores that are not known are taken to equal the stroke.\n"
+        return [cylinder.replace(bore=bore) for cylinder in engine.cylinders], ""
+    cylinders = [
+        cylinder.replace(bore=cylinder.bore or cylinder.stroke) for cylinder in engine.cylinders
+    ]
+    has_bores = all(cylinder.bore for cylinder in engine.cylinders)
+    return (
+        cylinders,
+        "" if has_bores else "Bores that are not known are taken to equal the stroke.\n",
+    )
 
 
 @command(
@@ -205,7 +213,7 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     "--bore",
     *_of_files(
         "the files",
-        read=lambda given, flag: given.one_or_several(flag, "°"),
+        read=lambda call, flag: call.one_or_several(flag, "°"),
         metavar="ANGLE,…",
         more="; of several cylinders in one file that of each, their columns of pressure in "
         "--columns",
@@ -219,15 +227,15 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
     note="--save writes the engine with the mean of the prepared cycles.",
 )
-def _trace(given: Given) -> Shown:
-    engine = given.engine("trace")
-    cylinders, note = _with_bores(engine, given.optional("--bore", "m"))
-    read_as = _read_as(given, engine.strokes)
+def _trace(call: Given) -> Shown:
+    engine = call.engine("trace")
+    cylinders, note = _with_bores(engine, call.optional("--bore", "m"))
+    read_as = _read_as(call, engine.strokes)
     centres = read_as.get("tdc_deg")
     several = isinstance(centres, list)
     if several and len(centres) != len(engine):
         hint = f"the engine has {len(engine)} cylinders; give one angle, or one for each"
-        raise rejected("--tdc", given.text("--tdc"), hint)
+        raise rejected("--tdc", call.text("--tdc"), hint)
     if several:
         read_as.setdefault("columns", None)
 
@@ -236,16 +244,16 @@ def _trace(given: Given) -> Shown:
             return _loaded(Traces.load_cylinders, option, path, read_as)
         return (_loaded(Traces.load, option, path, read_as),)
 
-    traces, motored = loaded("file", given.text("file")), given.text("--motored")
+    traces, motored = loaded("file", call.text("file")), call.text("--motored")
     without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
     prepared = [
-        prepare_trace(each, cylinder, motored=by_motoring, **given.keywords(prepare_trace))
-        for each, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
+        prepare_trace(recorded, cylinder, motored=by_motoring, **call.keywords(prepare_trace))
+        for recorded, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
-    cycles = [each.cycle for each in prepared]
+    cycles = [trace.cycle for trace in prepared]
     with_mean = engine.replace(cylinder=cylinders).with_cycle(cycles if several else cycles[0])
     whole = OfCylinders(tuple(prepared)) if several else prepared[0]
-    note += f"Read: {'; '.join(dict.fromkeys(each.origin for each in traces))}.\n"
+    note += f"Read: {'; '.join(dict.fromkeys(trace.origin for trace in traces))}.\n"
     return Shown(whole.frames, whole, engine=with_mean, note=note)
 
 
@@ -268,25 +276,25 @@ class OfCylinders(NamedTuple):
         return Frames({frame: partial(stacked, frame, title) for frame, title in titles.items()})
 
     def _stacked(self, frame: str, title: str) -> Table:
-        tables = [each.frames[frame] for each in self.prepared]
-        numbers = tuple(k for k, each in enumerate(tables, 1) for _ in each.columns[0].values)
+        tables = [prepared.frames[frame] for prepared in self.prepared]
+        numbers = tuple(k for k, table in enumerate(tables, 1) for _ in table.columns[0].values)
         columns = [
-            changed(same[0], data=tuple(value for each in same for value in each.values))
-            for same in zip(*(each.columns for each in tables), strict=True)
+            changed(same[0], data=tuple(value for column in same for value in column.values))
+            for same in zip(*(table.columns for table in tables), strict=True)
         ]
         return changed(
             tables[0],
             title=title,
             columns=(Column("cylinder", numbers), *columns),
-            row_units=tuple(unit for each in tables for unit in each.row_units),
+            row_units=tuple(unit for table in tables for unit in table.row_units),
         )
 
     def plot(self) -> Axes:
         """Draw the mean of each cylinder in the band of its cycles."""
         first, *others = self.prepared
         ax: Axes = first.traces.plot(label="cylinder 1")
-        for k, each in enumerate(others, 2):
-            each.traces.plot(ax, label=f"cylinder {k}")
+        for k, prepared in enumerate(others, 2):
+            prepared.traces.plot(ax, label=f"cylinder {k}")
         return ax
 
 
@@ -306,8 +314,8 @@ def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOpti
         raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
 
 
-def _read_as(given: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several
+def _read_as(call: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several
     """Return how a file of cylinder pressure is read."""
-    if given.text("--gauge") and given.text("--absolute"):
+    if call.text("--gauge") and call.text("--absolute"):
         raise inputs.faulty("--gauge", "cannot be combined with --absolute", "give one of them")
-    return {"strokes": strokes, **given.keywords(load)}
+    return {"strokes": strokes, **call.keywords(load)}

@@ -18,18 +18,18 @@ if TYPE_CHECKING:
     from crankpin.cli.options import Option
     from crankpin.model.engine import Engine
 
-MOST_SAMPLES = 10_000_000
-FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FIGURES}
+MOST_TYPED_SAMPLES = 10_000_000
+SPREAD_FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FIGURES}
 """Figure that spreads → its option."""
 
 
-def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, as exact text
+def _angles(call: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, as exact text
     """Return an angle or the ends of a range; angles stay text, which may be a fraction."""
-    text: str = given.text(flag)
+    text: str = call.text(flag)
     ends = [end.strip().removesuffix("°") for end in text.split(":")]
     for end in ends:
         if "/" not in end:
-            given.one(flag, end, "°", "one angle, or LOW:HIGH")
+            call.one(flag, end, "°", "one angle, or LOW:HIGH")
     if len(ends) > 2:
         raise rejected(flag, text, "give one angle, or LOW:HIGH")
     return ends[0] if len(ends) == 1 else tuple(ends)
@@ -64,31 +64,31 @@ def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two,
     note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
     "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
 )
-def _design(given: Given) -> Shown:
-    engine = given.engine("design")
+def _design(call: Given) -> Shown:
+    engine = call.engine("design")
     if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
         hint = "give an engine with one or two banks and one kind of cylinder"
-        raise rejected("NAME", given.text("name"), hint)
-    pick, vee = given.whole("--pick"), len(engine.banks) == 2
+        raise rejected("NAME", call.text("name"), hint)
+    pick, vee = call.whole("--pick"), len(engine.banks) == 2
     options: dict[str, Any] = {"cylinders": len(engine), "layout": "vee" if vee else "inline"}
-    options |= given.keywords(design)
+    options |= call.keywords(design)
     if pick < 1 or pick > options.get("count", pick):
         raise rejected("--pick", str(pick), "give the place of one of the designs, from 1")
     if vee and options["layout"] == "vee":
         options.setdefault("bank_angle_deg", engine.bank_angle_deg)
-    found = design(
+    designs = design(
         cylinder=engine.cylinders[0],
         spacing=_spacing(engine),
         rotating_mass=float(engine.rotating_mass[0]),
-        rpm=given.number("--rpm", "rpm"),
-        by=given.text("--by"),
-        orders=given.orders(),
+        rpm=call.number("--rpm", "rpm"),
+        by=call.text("--by"),
+        orders=call.orders(),
         **options,
     )
-    if pick > len(found) and given.text("--save") is not None:
-        raise rejected("--pick", str(pick), f"there are {len(found)} designs")
-    engines = dict(enumerate(found.engines, start=1))
-    return Shown(found.frames, found, engine=engines.get(pick))
+    if pick > len(designs) and call.text("--save") is not None:
+        raise rejected("--pick", str(pick), f"there are {len(designs)} designs")
+    engines = dict(enumerate(designs.engines, start=1))
+    return Shown(designs.frames, designs, engine=engines.get(pick))
 
 
 def _spacing(engine: Engine) -> float:
@@ -101,7 +101,7 @@ def _spread(figure: str) -> Option:
     title, unit = labels.TOLERANCES[figure]
     what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
     unit = "degrees" if unit == "°" else unit
-    return option(FLAGS[figure], metavar="X", default="0", help=f"{what}, {unit}")
+    return option(SPREAD_FLAGS[figure], metavar="X", default="0", help=f"{what}, {unit}")
 
 
 @command(
@@ -120,29 +120,29 @@ def _spread(figure: str) -> Option:
     "--orders --rtol --reference-z --units --csv --plot",
     example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
 )
-def _tolerances(given: Given) -> Shown:
-    engine = given.engine("tolerances")
-    options = given.keywords(tolerances)
-    if options.get("samples", 0) > MOST_SAMPLES:
-        raise rejected("--samples", given.text("--samples"), f"give {MOST_SAMPLES} at most")
+def _tolerances(call: Given) -> Shown:
+    engine = call.engine("tolerances")
+    options = call.keywords(tolerances)
+    if options.get("samples", 0) > MOST_TYPED_SAMPLES:
+        raise rejected("--samples", call.text("--samples"), f"give {MOST_TYPED_SAMPLES} at most")
     spreads: dict[str, Any] = {
-        name: given.number(flag, labels.TOLERANCES[name][1]) for name, flag in FLAGS.items()
+        name: call.number(flag, labels.TOLERANCES[name][1]) for name, flag in SPREAD_FLAGS.items()
     }
     if not any(spreads.values()):
-        first, *_ = flags = [*FLAGS.values()]
+        first, *_ = flags = [*SPREAD_FLAGS.values()]
         hint = f"no part deviates; give a spread, {', '.join(flags)}"
-        raise rejected(first, given.text(first), hint)
+        raise rejected(first, call.text(first), hint)
     note = ""
     if engine.fired:
         engine, note = engine.with_cycle(None), "Gas pressure is not counted.\n"
     result = tolerances(
         engine,
-        rpm=given.number("--rpm", "rpm"),
+        rpm=call.number("--rpm", "rpm"),
         **spreads,
         **options,
-        by=given.text("--by"),
-        **given.chosen(),
+        by=call.text("--by"),
+        **call.chosen(),
     )
-    if given.text("--shares"):
+    if call.text("--shares"):
         return Shown(only(result.shares), result, {"kind": "shares"}, note=note)
     return Shown(result.frames, result, note=note)

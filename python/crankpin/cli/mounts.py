@@ -21,21 +21,21 @@ if TYPE_CHECKING:
 
 AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
 """Options of what is computed without a response."""
-FILE = option(
+POWERTRAIN_FILE = option(
     "name", argument="path", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"
 )
-PICTURES = ("cuts", "map", "waterfall", "spectrum")
+PICTURE_WORDS = ("cuts", "map", "waterfall", "spectrum")
 
 
-def _powertrain(given: Given) -> Powertrain:
+def _powertrain(call: Given) -> Powertrain:
     """Return what FILE has."""
-    return Powertrain.load(engine_files.checked(given.text("name")))
+    return Powertrain.load(engine_files.checked(call.text("name")))
 
 
 @command(
     "mounts",
     "an engine on its mounts: modes, axes, sag; with --rpm forces and motion by order",
-    FILE,
+    POWERTRAIN_FILE,
     option(
         "--rpm",
         metavar="RANGE",
@@ -73,7 +73,7 @@ def _powertrain(given: Given) -> Powertrain:
     option("--mount", metavar="NAME", help="mount of the picture (default: the sum of all)"),
     option(
         "--picture",
-        choices=PICTURES,
+        choices=PICTURE_WORDS,
         help="the largest orders over speed, a map of orders over speed, a waterfall of spectra, "
         "or one speed's spectrum (default: cuts of several speeds, spectrum of one, and without "
         "--rpm the modes)",
@@ -94,57 +94,54 @@ def _powertrain(given: Given) -> Powertrain:
     example="mounts car.toml --rpm 600:6000:20 --plot run-up.png",
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number.",
 )
-def _mounts(given: Given) -> Shown:
-    powertrain = _powertrain(given)
-    if given.text("--misfire") is not None:
-        powertrain = powertrain.with_misfire(given.whole("--misfire"))
-    rpm: Any = given.range("--rpm", "rpm")
-    page = given.text("--html")
+def _mounts(call: Given) -> Shown:
+    powertrain = _powertrain(call)
+    if call.text("--misfire") is not None:
+        powertrain = powertrain.with_misfire(call.whole("--misfire"))
+    rpm: Any = call.range("--rpm", "rpm")
+    page = call.text("--html")
     if page is not None:
         if np.size(rpm) > 1:
             raise rejected("--html", page, "begins at one speed: give --rpm one")
         speed = {} if rpm is None else {"rpm": float(np.ravel(rpm)[0])}
         powertrain.save_html(
-            page,
-            **speed,
-            frequency=given.optional("--frequency"),
-            controls=given.names("--controls"),
+            page, **speed, frequency=call.optional("--frequency"), controls=call.names("--controls")
         )
-    elif (typed := given.text("--controls")) is not None:
+    elif (typed := call.text("--controls")) is not None:
         raise rejected("--controls", typed, "needs --html")
     if rpm is None:
-        return _at_rest(given, powertrain)
+        return _at_rest(call, powertrain)
     for flag in (*AT_REST, *(() if page is not None else ("--frequency",))):
-        if (typed := given.text(flag)) is not None:
+        if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "acts without --rpm alone")
     if np.size(rpm) > MOST_ROWS:
         raise inputs.faulty("--rpm", f"has {np.size(rpm)} speeds", f"give {MOST_ROWS} at most")
-    response = powertrain.response(rpm, **given.chosen())
-    options = {"mount": given.text("--mount"), "kind": given.text("--picture")}
-    if (typed := given.text("--at")) is None:
-        if (on := given.text("--on")) is not None:
+    response = powertrain.response(rpm, **call.chosen())
+    options = {"mount": call.text("--mount"), "kind": call.text("--picture")}
+    if (typed := call.text("--at")) is None:
+        if (on := call.text("--on")) is not None:
             raise rejected("--on", on, "needs --at")
         return Shown(response.frames, response, options)
     if (mount := options.pop("mount")) is not None:
         raise rejected("--mount", mount, "cannot be combined with --at: a picture has one of them")
-    place: Any = given.numbers("--at", "m") if "," in typed else typed
-    moved = response.at(place, given.text("--on") or "powertrain")
+    place: Any = call.numbers("--at", "m") if "," in typed else typed
+    moved = response.at(place, call.text("--on") or "powertrain")
     return Shown(moved.frames, moved, options)
 
 
-def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
+def _at_rest(call: Given, powertrain: Powertrain) -> Shown:
     """Return modes, axes and the static state; what free motions leave undefined is left out."""
     for flag in ("--at", "--on", "--mount", "--picture"):
-        if (typed := given.text(flag)) is not None:
+        if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "needs --rpm")
-    frequency = given.optional("--frequency")
+    frequency = call.optional("--frequency")
     modes = powertrain.modes(frequency)
     makers: dict[str, Any] = {name: partial(modes.frames.get, name) for name in modes.frames}
     if not modes.free:
         axes = powertrain.axes(frequency)
-        static = powertrain.static(**given.keywords(Powertrain.static))
+        static = powertrain.static(**call.keywords(Powertrain.static))
         makers |= {"axes": lambda: axes.table, "static": lambda: static.table}
-    if (share := given.optional("--robustness")) is not None:
+    if (share := call.optional("--robustness")) is not None:
         robust = powertrain.robustness(share, frequency=frequency)
         makers |= {"robustness": lambda: robust.table}
     return Shown(Frames(makers), modes)
@@ -153,7 +150,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
 @command(
     "mounts-fit",
     "mounts that decouple roll, place natural frequencies and lower forces, within bounds",
-    FILE,
+    POWERTRAIN_FILE,
     option(
         "--by",
         default="decoupling",
@@ -161,9 +158,7 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
         "body_force[N] of an order N "
         "(default: %(default)s)",
     ),
-    keyword(
-        design_mounts, "rpm", read=lambda given, flag: given.range(flag, "rpm"), metavar="RANGE"
-    ),
+    keyword(design_mounts, "rpm", read=lambda call, flag: call.range(flag, "rpm"), metavar="RANGE"),
     option(
         "--vary",
         metavar="KIND,…",
@@ -196,26 +191,26 @@ def _at_rest(given: Given, powertrain: Powertrain) -> Shown:
     example="mounts-fit car.toml --stiffness 50000,500000 --modes-between 5,30 --save new.toml",
     note=f"Also {PROG} mounts fit FILE …",
 )
-def _fit(given: Given) -> Shown:
-    powertrain = _powertrain(given)
+def _fit(call: Given) -> Shown:
+    powertrain = _powertrain(call)
     bounds: dict[str, Any] = {}
     for kind in KINDS:
         flag = "--tilt" if kind == "tilt_deg" else f"--{kind}"
         unit = {"stiffness": "", "tilt_deg": "°"}.get(kind, "m")
-        if given.text(flag) is not None:
+        if call.text(flag) is not None:
             pair = kind == "stiffness"
-            bounds[kind] = given.numbers(flag, unit) if pair else given.number(flag, unit)
+            bounds[kind] = call.numbers(flag, unit) if pair else call.number(flag, unit)
     if not bounds:
         hint = "give bounds of what varies: --stiffness, --tilt, --x, --y or --z"
         raise inputs.faulty("mounts-fit", "has no bounds", hint)
-    found = design_mounts(
+    fitted = design_mounts(
         powertrain,
-        given.text("--by").split(","),
-        vary=_varied(given.text("--vary"), list(bounds)),
+        call.text("--by").split(","),
+        vary=_varied(call.text("--vary"), list(bounds)),
         bounds=bounds,
-        **given.keywords(design_mounts),
+        **call.keywords(design_mounts),
     )
-    return Shown(found.frames, found, engine=found.fitted)
+    return Shown(fitted.frames, fitted, engine=fitted.fitted)
 
 
 def _varied(text: str | None, kinds: list[str]) -> Any:  # noqa: ANN401 - as the library takes it

@@ -48,20 +48,20 @@ def error_in_options(
     name = error.argument.partition("[")[0].partition(".")[0]
     # One that is left out is named only where that is the fault.
     among = [
-        each
-        for each in options
-        if each.gives(name) and (error.value == "None" or typed.get(each.dest) is not None)
+        option
+        for option in options
+        if option.gives(name) and (error.value == "None" or typed.get(option.dest) is not None)
     ]
     if among:
         # Of several the one with this value.
-        of_value = (each for each in among if str(typed.get(each.dest)) in str(error.value))
+        of_value = (option for option in among if str(typed.get(option.dest)) in str(error.value))
         one = next(of_value, among[0])
         if fault.startswith(" = ") and name == error.argument:
             fault = _fault(error.value, typed.get(one.dest)) or fault
         error.argument = one.label + error.argument[len(name) :]
         if fault.startswith(" = "):
             error.value = fault[len(" = ") : -len(": ")]
-    error.hint = BARE.sub(lambda found: _label(found[0], options), _hint(error.hint, options))
+    error.hint = BARE.sub(lambda match: _label(match[0], options), _hint(error.hint, options))
     error.args = (f"{error.argument}{fault}{error.hint}",)
     return error
 
@@ -82,34 +82,34 @@ def warning_in_options(message: str, options: Iterable[Option], typed: Mapping[s
     """Return a warning of the library with the names of arguments and units of the shell."""
     # What a new engine is made of is an option or its default; of others it may be in the file.
     new = "kind" in typed
-    known = [each for each in options if new or typed.get(each.dest) is not None]
+    typed_options = [option for option in options if new or typed.get(option.dest) is not None]
     if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
-        known = [each for each in known if each.dest != "reciprocating_mass"]
-    named = BEGINS.sub(lambda found: _label(found[0], known), message)
+        typed_options = [option for option in typed_options if option.dest != "reciprocating_mass"]
+    named = BEGINS.sub(lambda match: _label(match[0], typed_options), message)
     named = _hint(named, [*options])
     if named == message and not new:  # a figure of an engine file, which has no units
         return message
     units = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
-    return named.replace(checks.UNITS, units)
+    return named.replace(checks.UNITS_ASSUMED, units)
 
 
 def _label(argument: str, options: Iterable[Option]) -> str:
     """Return the option among some that gives an argument, else the argument."""
-    return next((each.label for each in options if each.gives(argument)), argument)
+    return next((option.label for option in options if option.gives(argument)), argument)
 
 
 def _hint(text: str, options: list[Option]) -> str:
     """Return a text with arguments, ``orders=[1, 2]``, as they are typed in a shell."""
 
-    def hint(found: re.Match[str]) -> str:
-        name, value = found.groups()
-        flags = [each for each in options if each.gives(name)]
+    def hint(match: re.Match[str]) -> str:
+        name, value = match.groups()
+        flags = [option for option in options if option.gives(name)]
         if value in ("True", "False"):
             # One that has another name than its argument sets that to False.
-            flags = [each for each in flags if (each.dest == name) is (value == "True")]
-            return flags[0].label if flags else found[0]
+            flags = [flag for flag in flags if (flag.dest == name) is (value == "True")]
+            return flags[0].label if flags else match[0]
         plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
-        return f"{flags[0].label} {plain}" if flags else found[0]
+        return f"{flags[0].label} {plain}" if flags else match[0]
 
     return BUILDER.sub(_kind, CALL.sub(hint, text))
 

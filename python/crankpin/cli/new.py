@@ -68,33 +68,33 @@ def _of_shape(
     return one
 
 
-def _pin_split(given: Given, flag: str) -> str:
+def _pin_split(call: Given, flag: str) -> str:
     """Return a pin split as text, or even."""
-    return "even" if given.text(flag) == "even" else given.angle(flag)
+    return "even" if call.text(flag) == "even" else call.angle(flag)
 
 
-def _cranks(given: Given, flag: str) -> list[tuple[float, float, int]]:
+def _cranks(call: Given, flag: str) -> list[tuple[float, float, int]]:
     """Return further crankshafts: the axis of each, m, and its ratio."""
-    return [_crank(given, flag, each.split(":")) for each in given.text(flag).split(",")]
+    return [_crank(call, flag, place.split(":")) for place in call.text(flag).split(",")]
 
 
-def _crank(given: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
+def _crank(call: Given, flag: str, parts: list[str]) -> tuple[float, float, int]:
     if len(parts) != 3 or not parts[2].strip().lstrip("+-").isdecimal():
-        raise rejected(flag, given.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
-    x, y = (given.one(flag, each, "m") for each in parts[:2])
+        raise rejected(flag, call.text(flag), "give X:Y:RATIO, such as 0.2:0:-1")
+    x, y = (call.one(flag, coordinate, "m") for coordinate in parts[:2])
     return x, y, int(parts[2])
 
 
 LAYOUT = {
-    each.label: each
-    for each in (
+    shape.label: shape
+    for shape in (
         _of_shape(Engine.vee, "bank_angle_deg"),
         _of_shape(Engine.vee, "throws_deg"),
         _of_shape(Engine.vee, "pin_split_deg", read=_pin_split, more=", or type even"),
         _of_shape(
             Engine.vee,
             "spacing",
-            read=lambda given, flag: given.range(flag, "m"),
+            read=lambda call, flag: call.range(flag, "m"),
             metavar="LENGTH,…",
             more=" (default: in proportion to the bore)",
         ),
@@ -165,7 +165,7 @@ def _parameters(base: presets.Layout) -> Mapping[str, inspect.Parameter]:
 def _flags(base: presets.Layout) -> dict[str, str]:
     """Return the options of a layout that it takes, with the argument of its builder."""
     taken = _names(base)
-    return {flag: each.argument for flag, each in LAYOUT.items() if each.argument in taken}
+    return {flag: option.argument for flag, option in LAYOUT.items() if option.argument in taken}
 
 
 def _names(base: presets.Layout) -> set[str]:
@@ -182,7 +182,7 @@ def _wrapped(names: Iterable[str]) -> str:
     return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
 
 
-PARTS = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
+PARTS_HELP = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 ON_MOUNTS = "body and mounts, for crankpin mounts"
 
 
@@ -193,16 +193,19 @@ ON_MOUNTS = "body and mounts, for crankpin mounts"
     *(
         option(
             flag,
-            group=PARTS,
+            group=PARTS_HELP,
             argument="to_crankpin" if flag == "--rod-centre" else "",
             metavar="LENGTH,…",
             help=what,
         )
         for flag, what in LENGTHS.items()
     ),
-    *(option(flag, group=PARTS, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
+    *(option(flag, group=PARTS_HELP, metavar="MASS,…", help=what) for flag, what in MASSES.items()),
     option(
-        "--dummy", group=PARTS, metavar="N,…", help="dummy pistons, which balance and do not fire"
+        "--dummy",
+        group=PARTS_HELP,
+        metavar="N,…",
+        help="dummy pistons, which balance and do not fire",
     ),
     *LAYOUT.values(),
     _of_shape(Engine.from_firing_order, "shared_pins"),
@@ -240,51 +243,51 @@ ON_MOUNTS = "body and mounts, for crankpin mounts"
     f'"{PROG} new KIND --help" lists what that layout takes.',
     refused=_refused,
 )
-def _new(given: Given) -> str:
+def _new(call: Given) -> str:
     """Write the file; return what the command prints."""
-    file = given.engine_file("--out")
+    file = call.engine_file("--out")
     notes = list[str]()
-    cylinder, rotating = _parts(given, notes)
-    engine = given.with_loads(_engine(given, cylinder, rotating, notes))
-    powertrain = _on_mounts(given, engine)
+    cylinder, rotating = _parts(call, notes)
+    engine = call.with_loads(_engine(call, cylinder, rotating, notes))
+    powertrain = _on_mounts(call, engine)
     if file is None:
         whole = engine.to_toml() if powertrain is None else powertrain._text(toml=True)
         return engine_files.commented(whole)
     (powertrain or engine).save(file)
     # An echo: in the units of --units, or else as typed.
-    with units.Shown(given.written | units.current()):
-        said = "".join(f"{units.shown(note)}\n" for note in notes)
-        made = repr(engine)
+    with units.Shown(call.written | units.current()):
+        remarks = "".join(f"{units.shown(note)}\n" for note in notes)
+        summary = repr(engine)
     command = "balance" if powertrain is None else "mounts"
-    return f"{made}\n{said}Written to {file}: try {PROG} {command} {shlex.quote(str(file))}\n"
+    return f"{summary}\n{remarks}Written to {file}: try {PROG} {command} {shlex.quote(str(file))}\n"
 
 
-def _on_mounts(given: Given, engine: Engine) -> Powertrain | None:
+def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
     """Return the engine on the body and mounts of options, if they are given."""
-    body, mounts = given.text("--body"), given.text("--mount") or []
+    body, mounts = call.text("--body"), call.text("--mount") or []
     if body is None and not mounts:
         return None
     if body is None or not mounts:
         flag, other = ("--mount", "--body") if body is not None else ("--body", "--mount")
         raise inputs.faulty(flag, "is left out", f"a body on mounts needs it, beside {other}")
-    mass, cg, inertia = _fields(given, "--body", body, "MASS:X,Y,Z:IX,IY,IZ", 3)
+    mass, cg, inertia = _fields(call, "--body", body, "MASS:X,Y,Z:IX,IY,IZ", 3)
     rigid = RigidBody(
-        given.one("--body", mass, "kg"),
-        given.listed("--body", cg, "m"),
-        given.listed("--body", inertia),
+        call.one("--body", mass, "kg"),
+        call.listed("--body", cg, "m"),
+        call.listed("--body", inertia),
     )
     carried = []
-    for each in mounts:
-        fields = _fields(given, "--mount", each, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
-        stiffness = given.listed("--mount", fields[2])
+    for mount in mounts:
+        fields = _fields(call, "--mount", mount, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
+        stiffness = call.listed("--mount", fields[2])
         along = stiffness if len(stiffness) > 1 else stiffness[0]
-        loss = given.one("--mount", fields[3]) if len(fields) > 3 else 0.0
-        place = given.listed("--mount", fields[1], "m")
+        loss = call.one("--mount", fields[3]) if len(fields) > 3 else 0.0
+        place = call.listed("--mount", fields[1], "m")
         carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
     return Powertrain(engine, rigid, carried)
 
 
-def _fields(given: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:
+def _fields(call: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:
     """Return the parts of an option between colons."""
     fields = text.split(":")
     if len(fields) not in counts:
@@ -293,20 +296,20 @@ def _fields(given: Given, flag: str, text: str, form: str, *counts: int) -> list
 
 
 def _engine(
-    given: Given,
+    call: Given,
     cylinder: Cylinder | list[Cylinder] | None,
     rotating: float | list[float] | None,
     notes: list[str],
 ) -> Engine:
     """Return the engine of a kind with these parts and what options change in its layout."""
-    kind = given.text("kind")
+    kind = call.text("kind")
     base = _layout(kind)
-    changes = _changes(given, kind, base)
+    changes = _changes(call, kind, base)
     if rotating is not None:
         changes["rotating_mass"] = rotating
     if "pin_split_deg" in changes or "bank_angle_deg" in changes:
         changes |= _split(base, changes)
-    dummies = _dummies(given, base)
+    dummies = _dummies(call, base)
     spacing = changes.pop("spacing", None)
     if assumed := spacing is None:
         first = cylinder[0] if isinstance(cylinder, list) else cylinder
@@ -315,12 +318,12 @@ def _engine(
         spacing = float(f"{base.spacing * ratio:.3g}")
     order = base.arguments.get("firing_order", "")
     required = base.builder == "from_firing_order"
-    known = bool(order) and "firing_order" not in changes and not required
+    has_order = bool(order) and "firing_order" not in changes and not required
     named = changes.pop("firing_order", None) if dummies else None
-    changes["source"] = shlex.join([PROG, *given.typed])
-    if (name := given.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
+    changes["source"] = shlex.join([PROG, *call.typed])
+    if (name := call.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
         changes["name"] = name or ""
-    changes |= {"firing_order": ""} if known else {}
+    changes |= {"firing_order": ""} if has_order else {}
     engine = base.build(cylinder or base.cylinder, spacing, **changes)
     if assumed:
         with suppressed():  # Warned of above.
@@ -334,49 +337,49 @@ def _engine(
                 )
             )
     if dummies:
-        engine = _with_dummies(given, engine, dummies, named)
-    _check_count(given, kind, base, engine)
-    if known and len(engine) == order.replace("+", "-").count("-") + 1:
+        engine = _with_dummies(call, engine, dummies, named)
+    _check_count(call, kind, base, engine)
+    if has_order and len(engine) == order.replace("+", "-").count("-") + 1:
         engine = engine.replace(firing_order=allowed(engine._core, order, engine.strokes))
     if not engine.firing_order:
         notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
     return engine
 
 
-def _check_count(given: Given, kind: str, base: presets.Layout, engine: Engine) -> None:
+def _check_count(call: Given, kind: str, base: presets.Layout, engine: Engine) -> None:
     """Reject an option that makes another number of cylinders than the name of the layout says."""
-    if kind in BUILDERS or given.text("--absent") is not None:
+    if kind in BUILDERS or call.text("--absent") is not None:
         return
     whole = base.build(base.cylinder, base.spacing)
     if len(engine) == len(whole):
         return
-    flag = next((each for each in COUNTING if given.text(each) is not None), "--throws")
+    flag = next((option for option in COUNTING if call.text(option) is not None), "--throws")
     hint = f"{kind} has {len(whole)} cylinders, this makes {len(engine)}"
     if base.builder in ("vee", "flat", "boxer", "inline"):
         throws = len(base.arguments["throws_deg"])
         plain = base.builder if base.builder != "vee" else "vee --bank-angle A"
         hint += f"; give {throws} crankpin{'s' * (throws > 1)}, or build it by {PROG} new {plain}"
-    raise rejected(flag, given.text(flag), hint)
+    raise rejected(flag, call.text(flag), hint)
 
 
-def _dummies(given: Given, base: presets.Layout) -> list[int]:
+def _dummies(call: Given, base: presets.Layout) -> list[int]:
     """Return the numbers of dummy pistons."""
-    if given.text("--dummy") is None:
+    if call.text("--dummy") is None:
         return []
     if base.builder == "from_firing_order":
         hint = "crankpins follow from cylinders that fire; give a layout by its --throws"
-        raise rejected("--dummy", given.text("--dummy"), hint)
-    return given.whole_numbers("--dummy", "give numbers of cylinders, such as 2")
+        raise rejected("--dummy", call.text("--dummy"), hint)
+    return call.whole_numbers("--dummy", "give numbers of cylinders, such as 2")
 
 
 def _with_dummies(
-    given: Given, engine: Engine, dummies: list[int], firing_order: str | None
+    call: Given, engine: Engine, dummies: list[int], firing_order: str | None
 ) -> Engine:
     """Return an engine some of whose pistons are dummies, in the firing order of the others."""
     for number in dummies:
         if not 1 <= number <= len(engine):
             hint = f"the engine has cylinders 1 to {len(engine)}"
-            raise rejected("--dummy", given.text("--dummy"), hint)
+            raise rejected("--dummy", call.text("--dummy"), hint)
     numbered = enumerate(engine.cylinders, start=1)
     return engine.replace(
         cylinder=[one.replace(dummy=number in dummies) for number, one in numbered],
@@ -393,23 +396,23 @@ def _layout(kind: str) -> presets.Layout:
     if name not in presets.Presets():
         if meant := inputs.nearest(kind.lower(), [*presets.aliases(), *BUILDERS]):
             raise rejected("KIND", kind, f"no such layout{meant}")
-        own = f"builders are {', '.join(BUILDERS)}"
-        raise presets.unknown("KIND", kind, typed=True, own=own)
+        builders = f"builders are {', '.join(BUILDERS)}"
+        raise presets.unknown("KIND", kind, typed=True, further=builders)
     return presets.layout(name)
 
 
-def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
+def _changes(call: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
     """Return the arguments of the builder that options give."""
     takes, flags = _parameters(base), _flags(base)
     changes = dict[str, Any]()
-    for flag, each in LAYOUT.items():
-        if given.text(flag) is None:
+    for flag, figure in LAYOUT.items():
+        if call.text(flag) is None:
             continue
         if flag not in flags:
             hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
-            raise rejected(flag, given.text(flag), hint)
-        changes[each.argument] = given.value(each)
-    if given.text("--shared-pins"):
+            raise rejected(flag, call.text(flag), hint)
+        changes[figure.argument] = call.value(figure)
+    if call.text("--shared-pins"):
         if "shared_pins" not in _names(base):
             hint = "pins follow from a firing order in new firing-order alone; leave it out"
             raise inputs.faulty("--shared-pins", f"does not apply to {kind}", hint)
@@ -445,25 +448,28 @@ def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:
 
 
 def _parts(
-    given: Given, notes: list[str]
+    call: Given, notes: list[str]
 ) -> tuple[Cylinder | list[Cylinder] | None, float | list[float] | None]:
     """Return what options say of each cylinder, or of all: parts, and what rotates with the pin.
 
     None stands for nominal parts.
     """
-    lengths = {flag: given.numbers(flag, "m", infinite=flag == "--rod-length") for flag in LENGTHS}
-    masses = {flag: given.numbers(flag, "kg") for flag in MASSES}
-    typed = {flag: each for flag, each in (lengths | masses).items() if each is not None}
-    count = max((len(each) for each in typed.values()), default=1)
-    for flag, each in typed.items():
-        if len(each) not in (1, count):
-            raise rejected(flag, given.text(flag), f"give one, or {count}, one for each cylinder")
+    lengths = {flag: call.numbers(flag, "m", infinite=flag == "--rod-length") for flag in LENGTHS}
+    masses = {flag: call.numbers(flag, "kg") for flag in MASSES}
+    typed = {flag: text for flag, text in (lengths | masses).items() if text is not None}
+    count = max((len(values) for values in typed.values()), default=1)
+    for flag, values in typed.items():
+        if len(values) not in (1, count):
+            raise rejected(flag, call.text(flag), f"give one, or {count}, one for each cylinder")
 
     def of(which: dict[str, list[float] | None], k: int) -> dict[str, float | None]:
-        return {flag: None if each is None else each[k % len(each)] for flag, each in which.items()}
+        return {
+            flag: None if values is None else values[k % len(values)]
+            for flag, values in which.items()
+        }
 
     remarks: list[list[str]] = [[] for _ in range(count)]
-    pairs = [_parts_of_one(given, of(lengths, k), of(masses, k), remarks[k]) for k in range(count)]
+    pairs = [_parts_of_one(call, of(lengths, k), of(masses, k), remarks[k]) for k in range(count)]
     notes += dict.fromkeys(itertools.chain.from_iterable(remarks))
     cylinders, turning = zip(*pairs, strict=True)
     rotating = None if None in turning else list(turning)
@@ -473,10 +479,7 @@ def _parts(
 
 
 def _parts_of_one(
-    given: Given,
-    lengths: dict[str, float | None],
-    masses: dict[str, float | None],
-    notes: list[str],
+    call: Given, lengths: dict[str, float | None], masses: dict[str, float | None], notes: list[str]
 ) -> tuple[Cylinder | None, float | None]:
     """Return the cylinder of the options and what rotates with its pin; None for nominal ones."""
     rotating = masses.pop("--rotating-mass")
@@ -496,13 +499,13 @@ def _parts_of_one(
     if (moving := masses.pop("--reciprocating-mass")) is not None:
         if other := [flag for flag, mass in masses.items() if mass is not None]:
             hint = "cannot be combined with --reciprocating-mass, which includes it"
-            raise rejected(other[0], given.text(other[0]), hint)
+            raise rejected(other[0], call.text(other[0]), hint)
         return Cylinder(stroke / 2.0, length, moving, **common), rotating
     if length == math.inf:
         hint = (
             "give --reciprocating-mass, with the yoke in it; an infinite rod has no ends to weigh"
         )
-        raise rejected("--rod-length", given.text("--rod-length"), hint)
+        raise rejected("--rod-length", call.text("--rod-length"), hint)
     rod = _rod(length, lengths["--rod-centre"], masses, notes)
     if masses["--piston-mass"] is None:
         hint = "a cylinder of your own needs --piston-mass, or --reciprocating-mass"

@@ -37,14 +37,14 @@ class Parser(argparse.ArgumentParser):
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
         """Reject, as the command that it is, words that it does not take."""
-        found, others = super().parse_known_args(args, namespace)
+        values, others = super().parse_known_args(args, namespace)
         if others:
             meant = inputs.nearest(others[0].partition("=")[0], self._option_string_actions)
             hint = meant or f"; see {self.prog} --help"
-            if Path(others[0]).suffix.lower() == ".csv" and getattr(found, "csv", False):
+            if Path(others[0]).suffix.lower() == ".csv" and getattr(values, "csv", False):
                 hint = f"; --csv prints CSV, so write it to a file by: --csv > {others[0]}"
             raise InputError(f"unrecognized arguments: {labels.cut(' '.join(others))}{hint}")
-        return found, []
+        return values, []
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
         """Reject a word that is none of the choices, as the library does."""
@@ -229,13 +229,14 @@ def keyword(
         Settings of argparse in place of those that follow from the declaration.
     """
     declared = parameter(function, argument)
-    said = _spoken(function, declared.default if default is None else default)
-    text = f"{_spoken(function, declared.text)}{more}{f' (default: {said})' * bool(said)}"
-    shown: dict[str, Any] = {"help": text.replace("%", "%%")}
+    default_text = _spoken(function, declared.default if default is None else default)
+    by_default = f" (default: {default_text})" if default_text else ""
+    text = f"{_spoken(function, declared.text)}{more}{by_default}"
+    keywords: dict[str, Any] = {"help": text.replace("%", "%%")}
     if declared.type == "bool":
-        shown["action"] = "store_true"
+        keywords["action"] = "store_true"
     elif declared.choices:
-        shown["choices"] = declared.choices
+        keywords["choices"] = declared.choices
     else:
         counted = re.search(r"\bnumber of|by index", text) is not None
         one = (
@@ -244,10 +245,10 @@ def keyword(
             else METAVARS.get(declared.unit, argument.rsplit("_", maxsplit=1)[-1].upper())
         )
         several = re.search("^(array|sequence)|iterable|, or sequence", declared.type) is not None
-        shown["metavar"] = "LOW,HIGH" if "pair" in declared.type else f"{one}{',…' * several}"
+        keywords["metavar"] = "LOW,HIGH" if "pair" in declared.type else f"{one}{',…' * several}"
     return Option(
         (flag or _flag(argument),),
-        shown | settings,
+        keywords | settings,
         group,
         argument,
         inspect.unwrap(function),
@@ -264,14 +265,14 @@ def _spoken(function: Callable[..., Any], text: str) -> str:
     """Return a text of a docstring as a shell says it: lower case, options for arguments."""
     names = inspect.signature(function).parameters
     code = re.compile(r"``([^`]*)``")
-    text = code.sub(lambda found: _flag(found[1]) if found[1] in names else found[1], text)
+    text = code.sub(lambda match: _flag(match[1]) if match[1] in names else match[1], text)
     text = re.sub(r"^(?:True (?:for|to)|Whether to) ", "", text).replace('"', "")
     return text if text[1:2].isupper() else text[:1].lower() + text[1:]
 
 
 def keywords(function: Callable[..., Any], arguments: str, group: str = "") -> list[Option]:
     """Return the options of several arguments of a function, named in one text."""
-    return [keyword(function, each, group=group) for each in arguments.split()]
+    return [keyword(function, name, group=group) for name in arguments.split()]
 
 
 class Help(argparse._HelpAction):
@@ -305,9 +306,9 @@ def command(
     ``refused`` names options that the help leaves out beside what is typed before it.
     """
     taken = list[Option]()
-    for each in options:
-        taken += [each] if isinstance(each, Option) else map(option, each.split())
-    if any(each.names == ("name",) and each.settings == OPTIONS["name"] for each in taken):
+    for flag in options:
+        taken += [flag] if isinstance(flag, Option) else map(option, flag.split())
+    if any(option.names == ("name",) and option.settings == OPTIONS["name"] for option in taken):
         taken.append(option("--add-load"))
 
     def register(run: Run) -> Run:
@@ -325,10 +326,10 @@ def command(
             parser.add_argument("-h", "--help", action=Help, help=words)
             parser.set_defaults(run=run, options=taken)
             groups: dict[str, argparse._ActionsContainer] = {"": parser}
-            for each in taken:
-                if each.group not in groups:
-                    groups[each.group] = parser.add_argument_group(each.group)
-                groups[each.group].add_argument(*each.names, **each.settings)
+            for option in taken:
+                if option.group not in groups:
+                    groups[option.group] = parser.add_argument_group(option.group)
+                groups[option.group].add_argument(*option.names, **option.settings)
 
         add.__module__ = run.__module__
         COMMANDS[name] = add

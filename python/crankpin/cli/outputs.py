@@ -43,30 +43,30 @@ class Shown(NamedTuple):
     """Text below the tables, of which CSV has none."""
 
 
-def shown(given: Given, run: Run) -> str:
+def shown(call: Given, run: Run) -> str:
     """Run a command; write its picture and engine to the files given, return what it prints."""
-    picture, file = given.picture_file(), given.save_file()
-    found = run(given)
-    if isinstance(found, str):
-        return found
-    printed, loads = _printed(given, found)
-    if file is not None and found.engine is not None:
-        found.engine.save(file)
+    picture, file = call.picture_file(), call.save_file()
+    result = run(call)
+    if isinstance(result, str):
+        return result
+    printed, loads = _printed(call, result)
+    if file is not None and result.engine is not None:
+        result.engine.save(file)
     if picture is not None:
-        _draw(found.drawn, picture, **found.options)
+        _draw(result.drawn, picture, **result.options)
     if loads:
         say(loads)
     return printed
 
 
-def _printed(given: Given, found: Shown) -> tuple[str, str]:
+def _printed(call: Given, result: Shown) -> tuple[str, str]:
     """Return text or CSV, and the loads beside CSV, where a line would be a row to a program."""
-    name = given.frame()
-    if given.text("--csv"):
-        table = found.frames[name or FIRST]._in(units.current())
+    name = call.frame()
+    if call.text("--csv"):
+        table = result.frames[name or FIRST]._in(units.current())
         return table.to_csv(), table.loads
-    shown = found.frames if name is None else found.frames[name]
-    return f"{shown.text()}\n{units.shown(found.note)}", ""
+    frames = result.frames if name is None else result.frames[name]
+    return f"{frames.text()}\n{units.shown(result.note)}", ""
 
 
 def only(table: Table) -> Frames:
@@ -77,8 +77,8 @@ def only(table: Table) -> Frames:
 def left_out(result: Balance | Sweep) -> str:
     """Return what omitted orders can add, in words."""
     bound = result.error_bound
-    listed = labels.orders_text(result.omitted, labels.MOST_LISTED).partition(" ")[2]
-    seen = f"; omitted: {listed}" if result.omitted else ""
+    omitted = labels.orders_text(result.omitted, labels.MOST_LISTED).partition(" ")[2]
+    seen = f"; omitted: {omitted}" if result.omitted else ""
     words = {"force": "the force", "moment": "the rocking moment", "torque": "the roll torque"}
     parts = [
         units.Text(units.figure(bound[name], QUANTITIES[name].unit, 2), f" to {text}")
@@ -107,17 +107,19 @@ def in_short(table: Table, balance: Balance, *names: str) -> Table:
     small = {
         order
         for k, order in enumerate(balance.orders)
-        if all(each[k] <= labels.MATTERS * each.max() for each in peaks)
+        if all(sizes[k] <= labels.MATTERS * sizes.max() for sizes in peaks)
     }
     heads = table.columns[0].values
-    kept = [k for k, order in enumerate(heads) if order not in small]
+    places = [k for k, order in enumerate(heads) if order not in small]
     note = (
-        f"Not shown: {len(heads) - len(kept)} orders (their peaks are below {labels.MATTERS:g} of "
-        "the largest); --csv prints them."
+        f"Not shown: {len(heads) - len(places)} orders (their peaks are below "
+        f"{labels.MATTERS:g} of the largest); --csv prints them."
     )
-    columns = (changed(each, data=tuple(each.values[k] for k in kept)) for each in table.columns)
-    row_units = tuple(table.row_units[k] for k in kept if table.row_units)
-    notes = units.joined("\n", [table.note, note]) if len(kept) < len(heads) else table.note
+    columns = (
+        changed(column, data=tuple(column.values[k] for k in places)) for column in table.columns
+    )
+    row_units = tuple(table.row_units[k] for k in places if table.row_units)
+    notes = units.joined("\n", [table.note, note]) if len(places) < len(heads) else table.note
     return changed(table, columns=tuple(columns), note=notes, row_units=row_units)
 
 

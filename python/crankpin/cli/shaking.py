@@ -23,11 +23,11 @@ from crankpin.cli.outputs import Shown, in_short, left_out, only
 if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
 
-SWEPT = ("--bank-angle", "--rod-ratio", "--pin-offset", "--rpm")
+SWEPT_FLAGS = ("--bank-angle", "--rod-ratio", "--pin-offset", "--rpm")
 """Options of dimensions that are swept."""
 
 
-PHASES = (
+PHASES_NOTE = (
     "Order n is peak·cos(n·θ + phase), θ the crank angle: the phase is that of the phasor P in\n"
     "Re(P·exp(i·n·θ)); x is to the right, y up, seen from the flywheel.\n"
 )
@@ -44,10 +44,10 @@ HALF_ORDERS = (
     "--units --csv --plot",
     example="balance v6-60 --rpm 6000 --plot v6.png",
 )
-def _balance(given: Given) -> Shown:
-    engine, chosen = given.engine("balance"), given.chosen()
-    balance = given.about(
-        engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
+def _balance(call: Given) -> Shown:
+    engine, chosen = call.engine("balance"), call.chosen()
+    balance = call.about(
+        engine.balance(call.number("--rpm", "rpm"), spectrum=call.spectrum(), **chosen)
     )
     note = ""
     if chosen["orders"] == "auto":
@@ -55,13 +55,13 @@ def _balance(given: Given) -> Shown:
     elif any(order % 1 for order in chosen["orders"]) and not engine.fired:
         note = HALF_ORDERS
     table = balance.table
-    if given.text("--phases"):
-        table, note = _with_phases(balance), units.joined("", [PHASES, note])
-    if not given.text("--csv"):
+    if call.text("--phases"):
+        table, note = _with_phases(balance), units.joined("", [PHASES_NOTE, note])
+    if not call.text("--csv"):
         table = in_short(
             table, balance, *(n for n in balance._request.quantities if n != "crank_torque")
         )
-    return Shown(only(table), balance, {"quantity": given.quantity([engine])}, note=note)
+    return Shown(only(table), balance, {"quantity": call.quantity([engine])}, note=note)
 
 
 def _with_phases(balance: Balance) -> Table:
@@ -73,7 +73,7 @@ def _with_phases(balance: Balance) -> Table:
     columns = [keys]
     for k, peak in enumerate(peaks):
         of_rows = [phasors[key][k] if key in phasors else 0.0 for key in keys.values]
-        phases = tuple(float(np.angle(each, deg=True)) if each else None for each in of_rows)
+        phases = tuple(float(np.angle(phasor, deg=True)) if phasor else None for phasor in of_rows)
         columns += [peak, Column(f"{peak.name.strip('|')} phase", phases, "°", digits=4)]
     return changed(balance.table, columns=tuple(columns))
 
@@ -86,8 +86,8 @@ def _with_phases(balance: Balance) -> Table:
     "--reference-z --units",
     example="explain v8-crossplane --rpm 6000",
 )
-def _explain(given: Given) -> str:
-    return f"{given.engine('explain').explain(given.optional('--rpm', 'rpm'))}\n"
+def _explain(call: Given) -> str:
+    return f"{call.engine('explain').explain(call.optional('--rpm', 'rpm'))}\n"
 
 
 @command(
@@ -116,75 +116,75 @@ def _explain(given: Given) -> str:
     "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
     "angle goes from 10 to 170 by 10.",
 )
-def _sweep(given: Given) -> Shown:
-    engines = given.engines()
-    axes = given.keywords(sweep) | {"rpm": given.range("--rpm", "rpm")}
+def _sweep(call: Given) -> Shown:
+    engines = call.engines()
+    axes = call.keywords(sweep) | {"rpm": call.range("--rpm", "rpm")}
     if not any(np.ndim(values) for values in axes.values()):
         vees = all(len(engine.banks) == 2 for engine in engines.values())
         if "bank_angle_deg" not in axes and vees:
             axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
         elif len(engines) == 1:
-            flags = ", ".join(flag for flag in SWEPT if vees or "bank" not in flag)
+            flags = ", ".join(flag for flag in SWEPT_FLAGS if vees or "bank" not in flag)
             hint = f"give one of {flags} as START:STOP:STEP or a,b,c"
             hint = f"all options have one value; {hint}"
             raise inputs.faulty("sweep", "has nothing to sweep", hint)
     rows = math.prod([len(engines), *map(np.size, axes.values())])
     if rows > MOST_ROWS:
         raise inputs.faulty("sweep", f"has {rows} points to sweep", f"give {MOST_ROWS} at most")
-    chosen = given.chosen()
+    chosen = call.chosen()
     result = sweep(
         engines if len(engines) > 1 else next(iter(engines.values())),
         **axes,
-        hold=given.text("--hold") if "bank_angle_deg" in axes else None,
-        spectrum=given.spectrum(),
+        hold=call.text("--hold") if "bank_angle_deg" in axes else None,
+        spectrum=call.spectrum(),
         **chosen,
     )
-    frames, note = _frames_of(result, given)
+    frames, note = _frames_of(result, call)
     note = units.joined("", [note, left_out(result)]) if chosen["orders"] == "auto" else ""
-    drawn = {"quantity": given.quantity(result.engines)}
+    drawn = {"quantity": call.quantity(result.engines)}
     return Shown(frames, result, drawn, note=note)
 
 
-def _frames_of(result: Sweep, given: Given) -> tuple[Frames, str]:
+def _frames_of(result: Sweep, call: Given) -> tuple[Frames, str]:
     """Return a table for each engine, or a single one with a column of engines; and a note.
 
     For reading, engines that are swept along something else stand below each other, as in the
     papers; a program needs a single table, and so does a comparison of engines alone. The note
     names the chosen orders that are left out of tables for reading.
     """
-    quantity = given.quantity(result.engines)
+    quantity = call.quantity(result.engines)
     symbols = QUANTITIES[quantity].symbols
     peaks = result.read(quantity, "peak_xy" if QUANTITIES[quantity].planar else "peak")
-    shown, left = result._shown_orders(quantity)
-    if given.text("--csv"):
-        shown, left = tuple(range(len(result.orders))), ()
+    places, left = result._shown_orders(quantity)
+    if call.text("--csv"):
+        places, left = tuple(range(len(result.orders))), ()
     note = f"{labels.not_shown(left)}\n" if left else ""
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     # Without -1, which has no value where there is no order.
     shape = (len(result.engines), len(swept), len(result.orders), len(symbols))
-    rows = peaks.reshape(shape)[:, :, list(shown)]
-    rows = rows.reshape(*shape[:2], len(shown) * len(symbols))
+    rows = peaks.reshape(shape)[:, :, list(places)]
+    rows = rows.reshape(*shape[:2], len(places) * len(symbols))
     heads = [(name, unit.strip()) for name, unit in map(labels.SWEPT.__getitem__, dims)]
     heads += [
         (f"{symbol} order {order}", QUANTITIES[quantity].unit)
-        for order in (result.orders[place] for place in shown)
+        for order in (result.orders[place] for place in places)
         for symbol in symbols
     ]
-    how = _how(result, given)
+    how = _how(result, call)
     decimals = tables.common_decimals(rows)
     # The title has a spectrum.
     loads = getattr(result, quantity).loads_counted if result.spectrum is None else ""
-    if "engine" not in result.coords or (dims and not given.text("--csv")):
+    if "engine" not in result.coords or (dims and not call.text("--csv")):
         of_engines = zip(
             result.coords.get("engine", [FIRST]), engine_titles(result), rows, strict=True
         )
         return Frames(
             {
                 str(name): partial(
-                    Table.from_rows, f"{title}: {how}", heads, swept, each, decimals, loads=loads
+                    Table.from_rows, f"{title}: {how}", heads, swept, engine, decimals, loads=loads
                 )
-                for name, title, each in of_engines
+                for name, title, engine in of_engines
             }
         ), note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
@@ -194,17 +194,17 @@ def _frames_of(result: Sweep, given: Given) -> tuple[Frames, str]:
     return only(whole), note
 
 
-def _how(result: Sweep, given: Given) -> str:
+def _how(result: Sweep, call: Given) -> str:
     """Return what the table shows, and what is fixed, held or given."""
-    quantity = given.quantity(result.engines)
+    quantity = call.quantity(result.engines)
     parts = [f"peaks of {QUANTITIES[quantity].words}"]
     parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:
         parts.append(labels.HELD[result.hold])
-    if quantity == "moment" and given.text("--reference-z") is not None:
-        parts.append(f"about z = {given.echo('--reference-z', 'm')}")
-    if given.text("--spectrum") is not None:
-        parts.append(f"spectrum {given.echo('--spectrum', 'kg·m')}")
+    if quantity == "moment" and call.text("--reference-z") is not None:
+        parts.append(f"about z = {call.echo('--reference-z', 'm')}")
+    if call.text("--spectrum") is not None:
+        parts.append(f"spectrum {call.echo('--spectrum', 'kg·m')}")
     return ", ".join(parts)
 
 
@@ -230,21 +230,21 @@ def _how(result: Sweep, given: Given) -> str:
     "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
     "(of one order) and unevenness_deg.",
 )
-def _rank(given: Given) -> Shown:
-    engines = given.engines()
-    own = given.text("--bank-angle") in (None, "own")
-    angles: Any = None if own else given.range("--bank-angle", "°")
+def _rank(call: Given) -> Shown:
+    engines = call.engines()
+    as_it_is = call.text("--bank-angle") in (None, "own")
+    angles: Any = None if as_it_is else call.range("--bank-angle", "°")
     points = len(engines) * (1 if angles is None else np.size(angles))
     if points > MOST_ROWS:
         raise inputs.faulty("rank", f"has {points} points to rank", f"give {MOST_ROWS} at most")
     ranking = rank(
         engines,
-        rpm=given.number("--rpm", "rpm"),
+        rpm=call.number("--rpm", "rpm"),
         bank_angle_deg=angles,
-        hold=None if own else given.text("--hold"),
-        by=given.text("--by"),
-        spectrum=given.spectrum(),
-        **given.keywords(rank),
-        **given.chosen(),
+        hold=None if as_it_is else call.text("--hold"),
+        by=call.text("--by"),
+        spectrum=call.spectrum(),
+        **call.keywords(rank),
+        **call.chosen(),
     )
     return Shown(ranking.frames, ranking, engine=ranking[0].engine)

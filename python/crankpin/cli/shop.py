@@ -29,7 +29,7 @@ def _default(part: str) -> str:
     return "default: the engine's, without any part of its kind"
 
 
-FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
+PART_FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
 """Part that is weighed → its option."""
 
 
@@ -44,7 +44,7 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
             metavar="MASS,…",
             help=f"{PARTS[part]} ({_default(part)})",
         )
-        for part, flag in FLAGS.items()
+        for part, flag in PART_FLAGS.items()
     ),
     keyword(bob_weight, "oil"),
     option(
@@ -77,35 +77,35 @@ FLAGS = {part: f"--{part.replace(' ', '-')}" for part in PARTS}
     "--big-end 430g --bearings 42g --oil 4g --factor 48%,50%,52% --rpm 6000 -o card.html",
     note="Print the page in a browser, on paper or as PDF. Angles are those at θ = 0 from +x.",
 )
-def _card(given: Given) -> Shown:
-    engine = given.engine("card")
-    typed = {part: given.numbers(flag, "kg") for part, flag in FLAGS.items()}
+def _card(call: Given) -> Shown:
+    engine = call.engine("card")
+    typed = {part: call.numbers(flag, "kg") for part, flag in PART_FLAGS.items()}
     for part, masses in typed.items():
         if masses is not None and len(masses) not in (1, len(engine)):
             hint = f"give one mass, or {len(engine)}"
-            raise rejected(FLAGS[part], given.text(FLAGS[part]), hint)
+            raise rejected(PART_FLAGS[part], call.text(PART_FLAGS[part]), hint)
     parts = {
         part: masses if len(masses) > 1 else masses[0]
         for part, masses in typed.items()
         if masses is not None
     }
-    factors = given.listed("--factor", given.text("--factor"))
-    bob = bob_weight(engine, factors[0], parts=parts, **given.keywords(bob_weight))
-    sides = given.text("--sides").split(",")
+    factors = call.listed("--factor", call.text("--factor"))
+    bob = bob_weight(engine, factors[0], parts=parts, **call.keywords(bob_weight))
+    sides = call.text("--sides").split(",")
     if len(sides) != 2:
-        raise rejected("--sides", given.text("--sides"), "give two words, such as exhaust,intake")
-    planes = None if given.text("--planes") is None else planes_of(given)
+        raise rejected("--sides", call.text("--sides"), "give two words, such as exhaust,intake")
+    planes = None if call.text("--planes") is None else planes_of(call)
     card = bob.card(
         factors,
-        rpm=given.number("--rpm", "rpm"),
+        rpm=call.number("--rpm", "rpm"),
         sides=(sides[0].strip(), sides[1].strip()),
         planes=planes,
-        **given.keywords(BobWeight.card),
+        **call.keywords(BobWeight.card),
     )
-    if given.frame() not in (None, *card.frames):
+    if call.frame() not in (None, *card.frames):
         raise inputs.faulty("--frame", "= correction", "needs --planes")
     note = ""
-    if (page := given.text("--out")) is not None:
+    if (page := call.text("--out")) is not None:
         card.save_html(page)
         note = f"Written to {page}: print it in a browser.\n"
     return Shown(card.frames, card, note=note)
@@ -118,7 +118,7 @@ def _card(given: Given) -> Shown:
         two_plane_correction,
         "amount_g_mm",
         "--amounts",
-        read=lambda given, _: _amounts(given),
+        read=lambda call, _: _amounts(call),
         metavar="U,U",
         required=True,
         help="unbalances measured, in g·mm unless they have a unit: 4200,2600 or 5.8oz·in,3.6oz·in",
@@ -138,24 +138,24 @@ def _card(given: Given) -> Shown:
     note="Angles are counted in the direction in which the crank turns. Without --units plain\n"
     "amounts are in g·mm, as machines show them, and plain lengths in m.",
 )
-def _two_plane(given: Given) -> Shown:
-    fix = two_plane_correction(**given.keywords(two_plane_correction))
+def _two_plane(call: Given) -> Shown:
+    fix = two_plane_correction(**call.keywords(two_plane_correction))
     table = fix.table
-    if (radius := given.numbers("--radius", "m")) is not None:
+    if (radius := call.numbers("--radius", "m")) is not None:
         if len(radius) > 2 or min(radius) <= 0.0:
-            raise rejected("--radius", given.text("--radius"), "give one length above 0, or two")
+            raise rejected("--radius", call.text("--radius"), "give one length above 0, or two")
         grams = fix.amount_g_mm / (1e3 * np.array(radius))
         weight = Column("weight", grams, "g")
         table = changed(table, columns=(*table.columns, weight))
     return Shown(only(table), fix)
 
 
-def _amounts(given: Given) -> Any:  # noqa: ANN401 - an array
+def _amounts(call: Given) -> Any:  # noqa: ANN401 - an array
     """Return unbalances, g·mm."""
-    plain = given.text("--units") is None
-    typed = given.text("--amounts").split(",")
-    parts = [f"{each}g·mm" if plain and _is_plain(each) else each for each in typed]
-    return np.round([given.one("--amounts", each, "kg·m") / G_MM for each in parts], 9)
+    plain = call.text("--units") is None
+    typed = call.text("--amounts").split(",")
+    parts = [f"{text}g·mm" if plain and _is_plain(text) else text for text in typed]
+    return np.round([call.one("--amounts", part, "kg·m") / G_MM for part in parts], 9)
 
 
 def _is_plain(text: str) -> bool:
@@ -179,17 +179,17 @@ def _is_plain(text: str) -> bool:
     example="match v8-crossplane --pistons 470g,473g,471g,469g,474g,470g,467g,472g",
     note="Fit the counterweights first (counterweights … --save): what they remove does not count.",
 )
-def _match(given: Given) -> Shown:
-    ends = [given.numbers(flag, "kg") for flag in ("--small-ends", "--big-ends")]
+def _match(call: Given) -> Shown:
+    ends = [call.numbers(flag, "kg") for flag in ("--small-ends", "--big-ends")]
     rods = None
-    if any(each is not None for each in ends):
-        for flag, each in zip(("--small-ends", "--big-ends"), ends, strict=True):
-            if each is None:
+    if any(masses is not None for masses in ends):
+        for flag, masses in zip(("--small-ends", "--big-ends"), ends, strict=True):
+            if masses is None:
                 raise inputs.faulty(flag, "is left out", "rods have --small-ends and --big-ends")
-        small, big = (each or [] for each in ends)
+        small, big = (masses or [] for masses in ends)
         if len(small) != len(big):
             hint = f"give as many --big-ends as --small-ends, {len(small)}"
             raise inputs.faulty("--big-ends", f"has {len(big)} masses", hint)
         rods = list(zip(small, big, strict=True))
-    match = match_parts(given.engine("match"), rods=rods, **given.keywords(match_parts))
+    match = match_parts(call.engine("match"), rods=rods, **call.keywords(match_parts))
     return Shown(match.frames, match, engine=match.engines[0])

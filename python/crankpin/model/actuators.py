@@ -169,13 +169,13 @@ class Actuator(Input):
         InputError
             If a frequency is not above zero.
         """
-        given = _frequency(frequency)
-        limit = np.full(given.shape, np.inf)
+        hertz = _frequency(frequency)
+        limit = np.full(hertz.shape, np.inf)
         if self.force is not None:
             with np.errstate(divide="ignore"):  # at an undamped resonance the stroke is the limit
-                limit = self.force / np.abs(self._motor_share(given))
+                limit = self.force / np.abs(self._motor_share(hertz))
         if self.mass is not None and self.stroke is not None:
-            limit = np.minimum(limit, self.mass * self.stroke * (2.0 * np.pi * given) ** 2)
+            limit = np.minimum(limit, self.mass * self.stroke * (2.0 * np.pi * hertz) ** 2)
         return limit
 
 

@@ -234,7 +234,9 @@ class Builders(EngineData):
         layout = _along_crank(one, throws_deg, spacing, rotating_mass, first_tdc_deg)
         layout |= vee_layout(bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank)
         hint = "give numbers of cylinders, such as [6]"
-        missing = [inputs.whole("absent", each, 1) for each in inputs.items("absent", absent, hint)]
+        missing = [
+            inputs.whole("absent", number, 1) for number in inputs.items("absent", absent, hint)
+        ]
         core = _kept(_core.Engine.vee(parts(one), layout | {"absent": missing}), one)
         checks.angles(
             bank_angle_deg=bank_angle_deg, throws_deg=throws_deg, pin_split_deg=pin_split_deg,
@@ -586,8 +588,8 @@ class Builders(EngineData):
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
         engine = cls(core, name, source, "", strokes)
-        known = allowed(core, order, strokes)
-        engine = furnished(engine, cylinder, rotating_mass, known)
+        possible = allowed(core, order, strokes)
+        engine = furnished(engine, cylinder, rotating_mass, possible)
         if fired[1] is None:
             return engine
         return cls(_core.Firing.at_intervals(engine._core, order, strokes, fired[1]).kept())
@@ -961,10 +963,10 @@ def _further(cranks: object) -> list[tuple[float, float, float]]:
     """Return crankshafts besides the main one."""
     hint = "give x and y in metres and a ratio, such as [(0.2, 0.0, -1)]"
     further = []
-    for k, each in enumerate(inputs.items("cranks", cranks, hint), 1):
-        figures = inputs.items("cranks", each, hint)
+    for k, text in enumerate(inputs.items("cranks", cranks, hint), 1):
+        figures = inputs.items("cranks", text, hint)
         if len(figures) != 3:
-            raise inputs.rejected("cranks", each, hint)
+            raise inputs.rejected("cranks", text, hint)
         x, y = (inputs.finite("cranks", figure) for figure in figures[:2])
         further.append((x, y, inputs.speed_ratio(f"cranks[{k}].ratio", figures[2])))
     return further
@@ -977,17 +979,17 @@ def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
         if further:
             raise inputs.rejected("crank", None, "give the crankshaft of each cylinder, from 0")
         return None
-    listed = [
-        inputs.whole("crank", each, 0)
-        for each in inputs.items("crank", crank, "give a whole number for each cylinder")
+    places = [
+        inputs.whole("crank", place, 0)
+        for place in inputs.items("crank", crank, "give a whole number for each cylinder")
     ]
     count = len(inputs.items("bank_deg", bank_deg, "give a list of degrees"))
-    if len(listed) != count:
-        raise inputs.faulty("crank", f"has {len(listed)} entries", f"give {count}")
-    for each in listed:
-        if each > len(further):
-            raise inputs.rejected("crank", each, f"there are cranks 0 to {len(further)}")
-    return [(0.0, 0.0, 1), *further], listed
+    if len(places) != count:
+        raise inputs.faulty("crank", f"has {len(places)} entries", f"give {count}")
+    for text in places:
+        if text > len(further):
+            raise inputs.rejected("crank", text, f"there are cranks 0 to {len(further)}")
+    return [(0.0, 0.0, 1), *further], places
 
 
 def vee_layout(

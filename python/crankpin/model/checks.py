@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
-ROUNDING = 1e-6
+EQUAL_INTERVALS = 1e-6
 """Degrees by which rounding alone does not part two firing intervals."""
 
-UNITS = "Lengths are metres here, masses kilograms"
+UNITS_ASSUMED = "Lengths are metres here, masses kilograms"
 
 LARGEST_OIL = 0.5
 """Oil of a crankpin over the masses beside it above which it is in grams: a pin holds 2 to 10 g."""
@@ -59,9 +59,9 @@ def hardware(core: _core.Engine, *, of_shafts: bool) -> None:
     _report(_core.hardware_warnings(core, of_shafts))
 
 
-def bounds(core: _core.Engine, given: Iterable[float]) -> None:
+def bounds(core: _core.Engine, values: Iterable[float]) -> None:
     """Warn of bounds of counterweights in other units, kg·m; an infinite one is none."""
-    largest = max((each for each in given if each < math.inf), default=0.0)
+    largest = max((value for value in values if value < math.inf), default=0.0)
     _report(_core.figure_warnings(core, "kg·m", "bound", largest))
 
 
@@ -75,15 +75,15 @@ def place(core: _core.Engine, name: str, *at: float | None, middle: float | None
 
     With ``middle`` 0 they are places beside the crank or above it, or lengths. None is no place.
     """
-    given = (each for each in at if each is not None)
-    found = (_core.figure_warnings(core, "m", name, each, middle) for each in given)
-    _report(next(filter(None, found), []))
+    values = (value for value in at if value is not None)
+    texts = (_core.figure_warnings(core, "m", name, value, middle) for value in values)
+    _report(next(filter(None, texts), []))
 
 
 def masses(core: _core.Engine, **given: float) -> None:
     """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
-    found = (_core.figure_warnings(core, "kg", name, mass) for name, mass in given.items())
-    _report([text for each in found for text in each])
+    warnings_of = (_core.figure_warnings(core, "kg", name, mass) for name, mass in given.items())
+    _report([text for texts in warnings_of for text in texts])
 
 
 def oil(mass: float, beside: float) -> None:
@@ -100,8 +100,8 @@ def pressure(values: NDArray[np.float64]) -> None:
 def about_tdc(theta_deg: NDArray[np.float64], period_deg: float) -> NDArray[np.float64]:
     """Return crank angles in the cycle about the firing top dead centre, -360° to 360° or half."""
     half = period_deg / 2.0
-    found: NDArray[np.float64] = (theta_deg + half) % period_deg - half
-    return found
+    beside: NDArray[np.float64] = (theta_deg + half) % period_deg - half
+    return beside
 
 
 def far_peak(
@@ -157,33 +157,33 @@ def point(name: str, at: tuple[float, float, float]) -> None:
     _report(_core.point_warnings(name, at))
 
 
-def _report(found: list[str]) -> None:
-    if found:
-        warn(f"{'; '.join(found)} {UNITS}")
+def _report(texts: list[str]) -> None:
+    if texts:
+        warn(f"{'; '.join(texts)} {UNITS_ASSUMED}")
 
 
-def _warn_each(found: list[str]) -> None:
-    for text in found:
+def _warn_each(texts: list[str]) -> None:
+    for text in texts:
         warn(text)
 
 
 def angles(**given: object) -> None:
     """Warn of angles given in radians, and of angles beside a part of a turn."""
     for name, values in given.items():
-        listed = list(values.flat) if isinstance(values, np.ndarray) else values
-        listed = listed if isinstance(listed, (list, tuple)) else [listed]
-        hints = filter(None, (_near_miss(value) for value in listed))
+        numbers = list(values.flat) if isinstance(values, np.ndarray) else values
+        numbers = numbers if isinstance(numbers, (list, tuple)) else [numbers]
+        hints = filter(None, (_near_miss(value) for value in numbers))
         if hint := next(hints, None):
             warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")
-        radians(name, values, listed)
+        radians(name, values, numbers)
 
 
-def radians(name: str, given: object, values: Iterable[Any]) -> None:
+def radians(name: str, angles: object, values: Iterable[Any]) -> None:
     """Warn of doubles that are parts of a turn in radians; ``given`` is shown in their place."""
     degrees = _core.radians([float(value) for value in values if isinstance(value, float)])
     if degrees:
         warn(
-            f"{name} = {inputs.shorten(given)}: was it given in radians? Angles are degrees here: "
+            f"{name} = {inputs.shorten(angles)}: was it given in radians? Angles are degrees here: "
             f"{degrees}"
         )
 
@@ -211,7 +211,7 @@ def other_bank(odd_bank: str) -> str:
     return "left" if odd_bank == "right" else "right"
 
 
-def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
+def odd_bank(bank: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     """Warn of cylinder 1 in the wrong bank: in the other one a firing order needs smaller splits.
 
     Parameters
@@ -226,19 +226,19 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     bool
         Whether the caller was warned.
     """
-    largest, smaller = (float(np.abs(each).max()) for each in (split_deg, of_other))
+    largest, smaller = (float(np.abs(angles).max()) for angles in (split_deg, of_other))
     if largest < LARGEST_SPLIT or smaller > largest / 2.0:
         return False
     how = f"split by {smaller:.6g}°" if smaller else "shared"
     warn(
-        f'odd_bank = "{given}": this firing order needs pins split by {largest:.6g}°; with '
-        f'odd_bank="{other_bank(given)}" pins are {how}. Makers differ in the side of cylinder 1'
+        f'odd_bank = "{bank}": this firing order needs pins split by {largest:.6g}°; with '
+        f'odd_bank="{other_bank(bank)}" pins are {how}. Makers differ in the side of cylinder 1'
     )
     return True
 
 
 def split_pins(
-    split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int, given: object
+    split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int, typed: object
 ) -> None:
     """Warn of pins that even firing splits, with the intervals at which shared ones fire.
 
@@ -253,7 +253,7 @@ def split_pins(
     given
         The firing order as it was given.
     """
-    if (largest := float(np.abs(split_deg).max())) < ROUNDING:
+    if (largest := float(np.abs(split_deg).max())) < EQUAL_INTERVALS:
         return
     try:
         intervals = _core.Firing.named(shared, firing_order, strokes).intervals_deg.tolist()
@@ -263,10 +263,10 @@ def split_pins(
         count = next(
             count
             for count in range(1, len(intervals) + 1)
-            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=ROUNDING)
+            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=EQUAL_INTERVALS)
         )
-        fires = f"fire at {'-'.join(f'{each:.6g}' for each in intervals[:count])}°"
+        fires = f"fire at {'-'.join(f'{interval:.6g}' for interval in intervals[:count])}°"
     warn(
-        f"firing_order = {labels.cut(str(given))}: even firing needs crankpins split by "
+        f"firing_order = {labels.cut(str(typed))}: even firing needs crankpins split by "
         f"{largest:.6g}°; shared ones, which shared_pins=True gives, {fires}"
     )

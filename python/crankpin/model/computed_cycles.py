@@ -357,8 +357,8 @@ class ComputedCycles:
         """
         name, figures = example(kind, load, strokes)
         cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
-        found: Any = cls.wiebe(cylinder, strokes=strokes, name=name, **figures)
-        return found  # type: ignore[no-any-return]
+        cycle: Any = cls.wiebe(cylinder, strokes=strokes, name=name, **figures)
+        return cycle  # type: ignore[no-any-return]
 
     @classmethod
     def _computed(
@@ -379,10 +379,10 @@ class ComputedCycles:
             for key, value in figures.items()
         }
         core = of(cylinder._parts, cylinder.bore, ratio, inputs.strokes(strokes), title, checked)
-        said = {"bore": cylinder.bore, "stroke": cylinder.stroke, "compression_ratio": ratio}
-        known = {name: each for name, each in (said | checked).items() if each is not None}
-        listed = ", ".join(f"{name} {each:.6g}" for name, each in known.items())
-        return cls._of(core, f"Computed, not measured: {kind} cycle, in SI units {listed}")
+        figures_of = {"bore": cylinder.bore, "stroke": cylinder.stroke, "compression_ratio": ratio}
+        facts = {name: value for name, value in (figures_of | checked).items() if value is not None}
+        text = ", ".join(f"{name} {value:.6g}" for name, value in facts.items())
+        return cls._of(core, f"Computed, not measured: {kind} cycle, in SI units {text}")
 
 
 def example(kind: str, load: float = 1.0, strokes: int = 4) -> tuple[str, dict[str, float]]:

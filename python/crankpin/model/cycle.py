@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 EVEN = 1e-6
 """Difference between steps of a grid, over the largest, up to which they are equal."""
 
-PARTS = 8
+PARTS_OF_STEP = 8
 """Parts of a step between two points over which the piston's way is summed."""
 
 
@@ -319,7 +319,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         >>> abs(cycle.torque_harmonics(cylinder, [0.5, 1, 1.5])).round(1)
         array([33.6, 34.8, 36.4])
         """
-        halves = [round(2 * each) for each in inputs.explicit_half_orders(orders)]
+        halves = [round(2 * order) for order in inputs.explicit_half_orders(orders)]
         scale = area(cylinder) * cylinder.crank_radius
         below = inputs.number("crankcase", crankcase)
         checks.absolute("crankcase", below)
@@ -405,16 +405,16 @@ class Cycle(Tabled, Input, ComputedCycles):
         >>> cycle.resolution_error(cylinder, [12]).round(5)  # an estimate
         array([8.e-05])
         """
-        listed = inputs.explicit_half_orders(orders)
+        chosen = inputs.explicit_half_orders(orders)
         checks.absolute("crankcase", inputs.finite("crankcase", crankcase))
         scale = 2.0 * area(cylinder) / math.radians(self.period_deg)
         if self.degree is not None:
-            return np.zeros(len(listed))
+            return np.zeros(len(chosen))
         start = float(self.theta_deg[0])
         edges = np.append(self.theta_deg, start + self.period_deg)
         steps = np.diff(edges)
         before, steps = edges[:-1][steps > 0.0], steps[steps > 0.0]
-        shares = np.arange(PARTS + 1) / PARTS
+        shares = np.arange(PARTS_OF_STEP + 1) / PARTS_OF_STEP
         angles = before[:, None] + steps[:, None] * shares
         inside = before[:, None] + steps[:, None] * np.array([1e-9, 1.0 / 3.0, 2.0 / 3.0, 1 - 1e-9])
         first, second, third, fourth = self.pressure_at(inside).T
@@ -432,7 +432,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         way = np.abs(moves).sum(axis=1)
         turns = (moves.min(axis=1) < 0.0) & (moves.max(axis=1) > 0.0)
         way += 2.0 * turns * np.abs(moves).max(axis=1)
-        return np.full(len(listed), scale * (np.ptp(controls, axis=0) @ way))
+        return np.full(len(chosen), scale * (np.ptp(controls, axis=0) @ way))
 
     @property
     def table(self) -> Table:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from crankpin.model.cycle import Cycle
     from crankpin.model.table_files import Column, Columns
 
-HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
+TEXT_FILE_HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
 
 PRESSURE_UNITS = {
     "Pa": 1.0,
@@ -57,9 +57,9 @@ DIFFERENT = 1e-3
 """Part of a step by which angles of two cycles may differ and still be one grid."""
 INCOMPLETE = 0.9
 """Part of a period below which a block is no whole cycle."""
-GAP = 1.9
+MISSING_STEP = 1.9
 """Step over the usual one beside it from which lines are missing: a missing tooth makes it 2."""
-BESIDE = 5
+STEPS_BESIDE = 5
 """Steps at either side of which the median is the usual one."""
 RARE = 0.05
 """Part of the steps of a file up to which gaps, or angles that stand twice, are faults of it."""
@@ -74,7 +74,7 @@ have 0.01."""
 RECORDED_SPEEDS = (15.0, 40_000.0)
 """Speeds, rpm, of ship's engines at their slowest and of models: others are of times in other
 units."""
-NAMED = 3
+MOST_PLACES_NAMED = 3
 """Number of places that a warning names; of more it gives the count."""
 
 
@@ -179,15 +179,15 @@ def load(
         If compressions follow each other at another speed than is given, lines are missing or
         repeated; or there are spikes or odd cycles.
     """
-    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
+    file = inputs.file_path(path, table_files.TABLE_ENDINGS, table_files.FILE_HINT)
     hint = "give two, of angle and pressure, or more of pressure"
     chosen = None if columns is None else inputs.items("columns", columns, hint)
     if chosen is not None and len(chosen) < 2:
         raise inputs.rejected("columns", columns, hint)
     text = table_files.read(file, chosen, sheet)
-    known = _name(text.facts.get("name", file.stem)) if name is None else name
+    title = _name(text.facts.get("name", file.stem)) if name is None else name
     options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
-    return _recorded(text, chosen is None, tdc_deg, known, *options)
+    return _recorded(text, chosen is None, tdc_deg, title, *options)
 
 
 @documented(load)
@@ -205,12 +205,14 @@ def load_cylinders(
     strokes: int | None = None,
 ) -> list[Recorded]:
     """Return the cycles of several cylinders in a file: see :meth:`Traces.load_cylinders`."""
-    file = inputs.file_path(path, table_files.ENDINGS, table_files.HINT)
+    file = inputs.file_path(path, table_files.TABLE_ENDINGS, table_files.FILE_HINT)
     hint = "give that of angle, and one or a list for each cylinder"
     angle, *cylinders = inputs.items("columns", columns, hint) or [None]
     lists = [
-        inputs.items("columns", each, hint) if isinstance(each, (list, tuple)) else [each]
-        for each in cylinders
+        inputs.items("columns", cylinder, hint)
+        if isinstance(cylinder, (list, tuple))
+        else [cylinder]
+        for cylinder in cylinders
     ]
     if not lists or not all(lists):
         raise inputs.rejected("columns", columns, hint)
@@ -218,15 +220,15 @@ def load_cylinders(
     if len(centres) != len(lists):
         fault = f"has {len(centres)} angles for {len(lists)} cylinders"
         raise inputs.faulty("tdc_deg", fault, "give one for each column of pressure")
-    text = table_files.read(file, [angle, *(each for one in lists for each in one)], sheet)
+    text = table_files.read(file, [angle, *(place for one in lists for place in one)], sheet)
     options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
-    found, first = list[Recorded](), 1
+    records, first = list[Recorded](), 1
     for number, (one, centre) in enumerate(zip(lists, centres, strict=True), 1):
         chosen = text.of([0, *range(first, first + len(one))])
         first += len(one)
         head = chosen.heads()[1] if text.headed else f"cylinder {number}"
-        found.append(_recorded(chosen, False, centre, f"{file.stem}, {head}", *options))
-    return found
+        records.append(_recorded(chosen, False, centre, f"{file.stem}, {head}", *options))
+    return records
 
 
 def _recorded(
@@ -246,14 +248,14 @@ def _recorded(
     heads, read = text.heads(), text.numbers.shape[1]
     text = _of_cycles(text) if every else text
     count = text.numbers.shape[1] - 1
-    known = _fact(text.facts, "strokes")
-    strokes = inputs.strokes((4 if known is None else known) if strokes is None else strokes)
+    by_file = _fact(text.facts, "strokes")
+    strokes = inputs.strokes((4 if by_file is None else by_file) if strokes is None else strokes)
     unit, by_unit = _angle_unit(angle_unit, heads[0])
     of_pressure, by_pressure = _pressure_unit(pressure_unit, heads[1])
     above, by_gauge = _is_gauge(gauge, heads[1])
     period = 180.0 * strokes
     half = np.inf if unit in TIME_UNITS else period / 2.0 / ANGLE_UNITS[unit]
-    text = _ascending(text, half, ours=known is not None)
+    text = _ascending(text, half, ours=by_file is not None)
     where = text.numbers[:, 0] * ANGLE_UNITS[unit]
     pressures = np.ascontiguousarray(text.numbers[:, 1:].T)
     added = inputs.finite("atmosphere", atmosphere)
@@ -262,27 +264,27 @@ def _recorded(
         pressures[k] *= PRESSURE_UNITS[stated or _unit_of(head) or of_pressure]
         if above if gauge is not None else _says_gauge(head, above):
             pressures[k] += added
-    said = [f"{of_pressure} ({by_pressure})"]
-    said.append(f"gauge ({by_gauge}), {added:g} Pa added" if above else f"absolute ({by_gauge})")
+    remarks = [f"{of_pressure} ({by_pressure})"]
+    remarks.append(f"gauge ({by_gauge}), {added:g} Pa added" if above else f"absolute ({by_gauge})")
     if unit in TIME_UNITS:
         rpm = _speed(where, pressures[0], recorded_rpm, period)
         where = 6.0 * rpm * where
-        said.append(f"over time ({by_unit}) at {rpm:.6g} rpm")
+        remarks.append(f"over time ({by_unit}) at {rpm:.6g} rpm")
         _check_jumps(text, where, period / 2.0)
     else:
         inputs.only_with("a record over time", recorded_rpm=recorded_rpm)
-        said.append(f"angles in {unit} ({by_unit})")
+        remarks.append(f"angles in {unit} ({by_unit})")
     tdc = inputs.finite("tdc_deg", tdc_deg)
-    said.append(f"firing top dead centre at {tdc:g}° of the file")
-    if known is None:
+    remarks.append(f"firing top dead centre at {tdc:g}° of the file")
+    if by_file is None:
         _warn_of_gaps(text, half)
-    theta, found, how = _cycles(text, where - tdc, pressures, period)
-    many = len(found) > 1
-    said.insert(0, f"{len(found)} cycles {how}" if many else f"1 cycle{how[len('in a row') :]}")
+    theta, cycles, how = _cycles(text, where - tdc, pressures, period)
+    many = len(cycles) > 1
+    remarks.insert(0, f"{len(cycles)} cycles {how}" if many else f"1 cycle{how[len('in a row') :]}")
     if every and count < read - 1:
-        said.insert(1, f"{count} of {read - 1} columns beside the first")
+        remarks.insert(1, f"{count} of {read - 1} columns beside the first")
     degree = None if many else _fact(text.facts, "degree")
-    return Recorded(theta, found, strokes, name, ", ".join(said), degree)
+    return Recorded(theta, cycles, strokes, name, ", ".join(remarks), degree)
 
 
 # --- lines and columns ----------------------------------------------------------------------------
@@ -304,7 +306,7 @@ def _check_heads(text: Columns) -> None:
 def _of_cycles(text: Columns) -> Columns:
     """Return the columns of angle and first pressure, and of further cycles of that pressure."""
     numbers, heads = text.numbers, text.heads()
-    kept, others = [0, 1], list[int]()
+    chosen, others = [0, 1], list[int]()
     for k in range(2, numbers.shape[1]):
         rows = np.isfinite(numbers[:, k])
         first, values = numbers[rows, 1], numbers[rows, k]
@@ -313,17 +315,17 @@ def _of_cycles(text: Columns) -> Columns:
                 at = text.where(int(np.flatnonzero(~rows)[0]), k)
                 hint = "give one in each line, or name the columns of the other cycles, columns=…"
                 raise inputs.faulty("path", f"has no number in {at}", hint)
-            kept.append(k)
+            chosen.append(k)
         elif text.headed and _PRESSURE.search(heads[k]):
             others.append(text.places[k])
     if others:
-        listed = _listed([str(k) for k in others])
+        columns_text = _listed([str(k) for k in others])
         warn(
-            f"columns {listed} are headed as pressure, but unlike column {text.places[1]}, and "
-            "left out: columns=… names those of one cylinder, and Traces.load_cylinders reads "
+            f"columns {columns_text} are headed as pressure, but unlike column {text.places[1]}, "
+            "and left out: columns=… names those of one cylinder, and Traces.load_cylinders reads "
             "several"
         )
-    return text.of(kept)
+    return text.of(chosen)
 
 
 def _correlation(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
@@ -359,11 +361,13 @@ def _ascending(text: Columns, half: float, *, ours: bool) -> Columns:
         hint = "write angles with more decimals"
         raise inputs.faulty("path", f"has each angle more than once, first in {at}", hint)
     if len(jumps):
-        listed = _listed([f"{where[k]:.10g} in lines {lines[k - 1]} and {lines[k]}" for k in jumps])
-        warn(f"column {text.places[0]} has twice {listed}: pressure is taken to jump there")
+        jumps_text = _listed(
+            [f"{where[k]:.10g} in lines {lines[k - 1]} and {lines[k]}" for k in jumps]
+        )
+        warn(f"column {text.places[0]} has twice {jumps_text}: pressure is taken to jump there")
     if again.any():
-        listed = _listed([str(k) for k in lines[again]])
-        warn(f"the file has lines twice, {listed} as the one before: they are left out")
+        jumps_text = _listed([str(k) for k in lines[again]])
+        warn(f"the file has lines twice, {jumps_text} as the one before: they are left out")
     return text._replace(numbers=text.numbers[~again], lines=lines[~again])
 
 
@@ -382,32 +386,32 @@ def _warn_of_gaps(text: Columns, half: float) -> None:
     where = text.numbers[:, 0]
     steps = np.abs(np.diff(where))
     inside = steps < half  # not where angles begin again
-    if len(steps) <= 2 * BESIDE:
+    if len(steps) <= 2 * STEPS_BESIDE:
         return
-    wide = inside & (steps > GAP * np.median(steps[inside]))
+    wide = inside & (steps > MISSING_STEP * np.median(steps[inside]))
     gaps = list[int]()
     for k in np.flatnonzero(wide) if int(wide.sum()) <= RARE * len(steps) else ():
-        beside = steps[max(0, k - BESIDE) : k + BESIDE + 1]
-        if steps[k] > GAP * np.median(beside):
+        beside = steps[max(0, k - STEPS_BESIDE) : k + STEPS_BESIDE + 1]
+        if steps[k] > MISSING_STEP * np.median(beside):
             gaps.append(int(k))
     if gaps:
         lines = text.lines
-        listed = _listed(
+        angles_text = _listed(
             [
                 f"{where[k]:.10g} and {where[k + 1]:.10g} (lines {lines[k]} and {lines[k + 1]})"
                 for k in gaps
             ]
         )
         warn(
-            f"column {text.places[0]} has nothing between {listed}: lines, or teeth of the "
+            f"column {text.places[0]} has nothing between {angles_text}: lines, or teeth of the "
             "encoder, are missing, and pressure is interpolated there"
         )
 
 
 def _listed(places: Sequence[str]) -> str:
     """Return some places in words, and how many there are besides."""
-    more = f" and {len(places) - NAMED} more" if len(places) > NAMED else ""
-    return ", ".join(places[:NAMED]) + more
+    more = f" and {len(places) - MOST_PLACES_NAMED} more" if len(places) > MOST_PLACES_NAMED else ""
+    return ", ".join(places[:MOST_PLACES_NAMED]) + more
 
 
 # --- cycles ---------------------------------------------------------------------------------------
@@ -423,7 +427,7 @@ def _cycles(
         return theta, pressures, columns
     resets = np.flatnonzero(steps < -period / 2.0) + 1
     if len(resets):
-        grid, found, left = _blocks(text, theta, pressures, resets, period)
+        grid, rows, left = _blocks(text, theta, pressures, resets, period)
         how = f"in blocks{columns and ' and columns'}"
     else:
         step = float(np.median(steps))
@@ -433,7 +437,7 @@ def _cycles(
         if round(period / step) < 1:
             fault = f"has {step:.3g}° from one point to the next"
             raise inputs.faulty("path", fault, "are units and recorded_rpm right?")
-        grid, found = _resampled(theta, pressures, period, count)
+        grid, rows = _resampled(theta, pressures, period, count)
         left = bool(theta[-1] - theta[0] > count * period + step / 2.0)
         how = f"in a row{columns and ' and columns'}"
         rises = len(_rises(theta, pressures[0]))
@@ -442,7 +446,7 @@ def _cycles(
                 f"pressure rises {rises} times in the file, which has {count} cycles of {period:g}°"
                 ": are angle_unit and strokes right?"
             )
-    return grid, found, how + (", an incomplete one left out" if left else "")
+    return grid, rows, how + (", an incomplete one left out" if left else "")
 
 
 def _blocks(
@@ -455,7 +459,7 @@ def _blocks(
     """Return blocks of rows on the grid of most of them, and whether any was left out."""
     angles, values = np.split(theta, resets), np.split(pressures, resets, 1)
     first = [0, *resets.tolist()]
-    whole = [k for k, each in enumerate(angles) if _span(each) >= INCOMPLETE * period]
+    whole = [k for k, theta in enumerate(angles) if _span(theta) >= INCOMPLETE * period]
     if not whole:
         at, longest = text.where(0, 0), max(map(_span, angles))
         fault = f"has angles that begin again after {longest:g}°, in blocks from {at}"
@@ -467,10 +471,10 @@ def _blocks(
             raise inputs.faulty("path", fault, f"a cycle has {period:g}°")
     between = [k for k in range(1, len(angles) - 1) if k not in whole]
     if between:
-        listed = _listed([str(text.lines[first[k]]) for k in between])
-        warn(f"blocks of lines that begin in line {listed} are no whole cycles and left out")
+        lines_text = _listed([str(text.lines[first[k]]) for k in between])
+        warn(f"blocks of lines that begin in line {lines_text} are no whole cycles and left out")
     usual = float(np.median([len(angles[k]) for k in whole]))
-    grid = min((angles[k] for k in whole), key=lambda each: abs(len(each) - usual))
+    grid = min((angles[k] for k in whole), key=lambda theta: abs(len(theta) - usual))
     step = period / max(len(grid), 1)
     rows = [
         values[k]
@@ -494,12 +498,12 @@ def _resampled(
     step = period / points
     grid = theta[0] + step * np.arange(points)
     every = theta[0] + step * np.arange(count * points)
-    shown = theta[: len(every)]
-    if shown.shape == every.shape and np.abs(shown - every).max() < DIFFERENT * step:
-        found = pressures[:, : len(every)]
+    first_angles = theta[: len(every)]
+    if first_angles.shape == every.shape and np.abs(first_angles - every).max() < DIFFERENT * step:
+        first_rows = pressures[:, : len(every)]
     else:
-        found = np.array([_cubic(theta, one, every) for one in pressures])
-    return grid, found.reshape(-1, points)
+        first_rows = np.array([_cubic(theta, one, every) for one in pressures])
+    return grid, first_rows.reshape(-1, points)
 
 
 def _interpolated(
@@ -552,8 +556,8 @@ def _speed(
         )
     of_each = usual * counts / np.diff(times) - 1.0
     if (odd := np.flatnonzero(np.abs(of_each) > UNEVEN)).size:
-        listed = _listed([f"{100.0 * of_each[k]:+.1f} % after {times[k]:.6g} s" for k in odd])
-        warn(f"the speed of the record is not constant, as is assumed: {listed}")
+        changes_text = _listed([f"{100.0 * of_each[k]:+.1f} % after {times[k]:.6g} s" for k in odd])
+        warn(f"the speed of the record is not constant, as is assumed: {changes_text}")
     if stated is not None and abs(rpm - stated) > SPEEDS * stated:
         warn(
             f"recorded_rpm = {stated:g}: compressions of the record follow each other at {rpm:.5g} "
@@ -574,8 +578,8 @@ def _rises(seconds: NDArray[np.float64], pressure: NDArray[np.float64]) -> NDArr
     after = outside[1:][above[1:] & ~above[:-1]]
     before = after - 1
     share = (high - pressure[before]) / (pressure[after] - pressure[before])
-    found: NDArray[np.float64] = seconds[before] + share * (seconds[after] - seconds[before])
-    return found
+    instants: NDArray[np.float64] = seconds[before] + share * (seconds[after] - seconds[before])
+    return instants
 
 
 # --- text -----------------------------------------------------------------------------------------
@@ -583,7 +587,7 @@ def _rises(seconds: NDArray[np.float64], pressure: NDArray[np.float64]) -> NDArr
 
 def save(cycle: Cycle, path: str | Path) -> None:
     """Write a cycle to a file that reads back as an equal one."""
-    file = inputs.file_path(path, table_files.TEXTS, HINT)
+    file = inputs.file_path(path, table_files.TEXTS, TEXT_FILE_HINT)
     separator = "\t" if file.suffix.lower() == ".tsv" else ","
     in_line = cycle.name.isprintable() and cycle.name == " ".join(cycle.name.split())
     name = cycle.name if in_line and not cycle.name.startswith('"') else json.dumps(cycle.name)
@@ -626,37 +630,37 @@ def _pressure_unit(stated: str | None, head: str) -> tuple[str, str]:
     """Return the unit of pressures, and its source."""
     if stated is not None:
         return inputs.one_of("pressure_unit", stated, PRESSURE_UNITS), "given"
-    found = _unit_of(head)
-    if found is None:
-        listed = ", ".join(PRESSURE_UNITS)
+    unit = _unit_of(head)
+    if unit is None:
+        choices = ", ".join(PRESSURE_UNITS)
         raise inputs.rejected(
             "pressure_unit",
             None,
             "the file does not name one; head its column p [bar] or the like, or give one of "
-            f"{listed}",
+            f"{choices}",
         )
-    return found, "header"
+    return unit, "header"
 
 
 def _unit_of(head: str) -> str | None:
     """Return the one unit of pressure in a head."""
     units = {match[1].lower() for match in _PRESSURE.finditer(head)}
-    found = [each for each in PRESSURE_UNITS if each.lower() in units]
-    return found[0] if len(found) == 1 else None
+    named = [unit for unit in PRESSURE_UNITS if unit.lower() in units]
+    return named[0] if len(named) == 1 else None
 
 
 def _is_gauge(stated: bool | None, head: str) -> tuple[bool, str]:
     """Return whether pressures are above that of the atmosphere, and the source of that."""
     if stated is not None:
         return inputs.flag("gauge", stated), "given"
-    if (said := _says_gauge(head)) is None:
+    if (is_gauge := _says_gauge(head)) is None:
         raise inputs.rejected(
             "gauge",
             None,
             "the file does not state whether pressure is gauge or absolute; write one of these "
             "words into its header, or give gauge=True, or gauge=False for absolute pressure",
         )
-    return said, "header"
+    return is_gauge, "header"
 
 
 def _says_gauge(head: str, otherwise: bool | None = None) -> bool | None:

@@ -76,10 +76,10 @@ class CycleMap(Tabled, Input):
         if len(rows) != len(self.rpm) or {*map(len, rows)} != {len(self.load)}:
             shape = f"{len(self.rpm)} speeds and {len(self.load)} loads"
             raise inputs.rejected("cycles", [len(row) for row in rows], f"for {shape} {hint}")
-        for each in (cycle for row in rows for cycle in row):
-            if not isinstance(each, Cycle):
-                raise inputs.rejected("cycles", each, f"is not a Cycle; {hint}")
-            if each.strokes != rows[0][0].strokes:
+        for entry in (cycle for row in rows for cycle in row):
+            if not isinstance(entry, Cycle):
+                raise inputs.rejected("cycles", entry, f"is not a Cycle; {hint}")
+            if entry.strokes != rows[0][0].strokes:
                 raise inputs.faulty("cycles", "have 2 and 4 strokes", "give cycles of one period")
         object.__setattr__(self, "cycles", rows)
 
@@ -154,7 +154,7 @@ class CycleMap(Tabled, Input):
         """
         of_nodes = np.array(
             [
-                [each.torque_harmonics(cylinder, orders, crankcase=crankcase) for each in row]
+                [cycle.torque_harmonics(cylinder, orders, crankcase=crankcase) for cycle in row]
                 for row in self.cycles
             ]
         )
@@ -167,8 +167,8 @@ class CycleMap(Tabled, Input):
             raise inputs.faulty(
                 "rpm", f"has shape {shapes}", "give shapes that broadcast"
             ) from None
-        found: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
-        return found
+        phasors: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
+        return phasors
 
     @property
     def table(self) -> Table:
@@ -192,5 +192,5 @@ def _weights(
     rows = np.arange(values.size)
     weights[rows, np.minimum(lower + 1, len(axis) - 1)] = share
     weights[rows, lower] = 1.0 - share
-    found: NDArray[np.float64] = weights.reshape(*values.shape, len(axis))
-    return found
+    by_node: NDArray[np.float64] = weights.reshape(*values.shape, len(axis))
+    return by_node

@@ -200,9 +200,9 @@ class Cylinder:
     def __post_init__(self) -> None:
         inputs.flag("dummy", self.dummy)
         for field in dataclasses.fields(self)[:-2]:
-            given = getattr(self, field.name)
-            if given is not None or field.default is not None:
-                object.__setattr__(self, field.name, inputs.number(field.name, given))
+            value = getattr(self, field.name)
+            if value is not None or field.default is not None:
+                object.__setattr__(self, field.name, inputs.number(field.name, value))
         _core.check_cylinder(self._parts)
         if self.bore is not None and not 0.0 < self.bore <= LARGEST_LENGTH:
             raise inputs.rejected("bore", self.bore, "give metres above zero")
@@ -218,16 +218,16 @@ class Cylinder:
             raise inputs.rejected("rod", rod, "give a crankpin.Rod")
         if self.piston_mass is None:
             raise inputs.rejected("piston_mass", None, "give it with the rod, or leave out the rod")
-        made = {
+        of_rod = {
             "rod_length": rod.length,
             "reciprocating_mass": self.piston_mass + rod.reciprocating_mass,
             "rod_inertia_excess": rod.inertia_excess,
         }
-        for name, figure in made.items():
-            if (given := getattr(self, name)) != figure:
+        for name, figure in of_rod.items():
+            if (value := getattr(self, name)) != figure:
                 hint = "change them together, as Cylinder.from_rod does, or leave out the rod"
                 raise inputs.rejected(
-                    name, given, f"rod and piston_mass make it {figure!r}; {hint}"
+                    name, value, f"rod and piston_mass make it {figure!r}; {hint}"
                 )
 
     @classmethod
@@ -297,13 +297,13 @@ class Cylinder:
         if {"rod_length", "reciprocating_mass", "rod_inertia_excess"} & changes.keys():
             changes = {"piston_mass": None, "rod": None} | changes
         elif {"piston_mass", "rod"} & changes.keys() and changes.get("rod", self.rod) is not None:
-            kept = {name: getattr(self, name) for name in ("crank_radius", "pin_offset", "bore")}
-            whole = {"rod": self.rod, "piston_mass": self.piston_mass} | kept | changes
+            fields = {name: getattr(self, name) for name in ("crank_radius", "pin_offset", "bore")}
+            whole = {"rod": self.rod, "piston_mass": self.piston_mass} | fields | changes
             if whole["piston_mass"] is None:
                 hint = "give piston_mass too: it is not known what the rod's part was"
                 raise inputs.rejected("rod", whole["rod"], hint)
-            made = Cylinder.from_rod(**{k: v for k, v in whole.items() if k != "dummy"})
-            return dataclasses.replace(made, dummy=whole.get("dummy", self.dummy))
+            cylinder = Cylinder.from_rod(**{k: v for k, v in whole.items() if k != "dummy"})
+            return dataclasses.replace(cylinder, dummy=whole.get("dummy", self.dummy))
         try:
             return dataclasses.replace(self, **changes)
         except TypeError as error:
@@ -565,8 +565,8 @@ def rod_length(crank_radius: float, rod_ratio: float) -> float:
     return crank_radius / rod_ratio if rod_ratio else math.inf
 
 
-def _checked_piston_mass(given: object) -> float:
-    mass = inputs.finite("piston_mass", given)
+def _checked_piston_mass(value: object) -> float:
+    mass = inputs.finite("piston_mass", value)
     if mass < 0.0:
         raise inputs.rejected("piston_mass", mass, "give a number that is zero or more")
     return mass
@@ -632,12 +632,12 @@ def slider_crank_harmonics(
     >>> cp.slider_crank_harmonics(0.5, [2], rtol=1e-2).round(4)
     array([0.5359])
     """
-    listed = inputs.explicit_orders(orders)
+    chosen = inputs.explicit_orders(orders)
     ratios = inputs.array("rod_ratio", rod_ratio)
     within = None if rtol is None else inputs.number("rtol", rtol)
     if pin_offset_ratio is None:
-        table = _core.centred_table(inputs.contiguous(ratios).reshape(-1), listed, within)
-        return table.reshape(*ratios.shape, len(listed))
+        table = _core.centred_table(inputs.contiguous(ratios).reshape(-1), chosen, within)
+        return table.reshape(*ratios.shape, len(chosen))
     offsets = inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
@@ -649,4 +649,4 @@ def slider_crank_harmonics(
     ratios = inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
     ratios, offsets = (inputs.contiguous(a).reshape(-1) for a in (ratios, offsets))
-    return _core.offset_table(ratios, offsets, listed, within).reshape(*shape, len(listed))
+    return _core.offset_table(ratios, offsets, chosen, within).reshape(*shape, len(chosen))

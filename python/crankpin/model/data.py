@@ -147,8 +147,8 @@ class EngineData:
     def cylinders(self) -> tuple[Cylinder, ...]:
         """Moving parts of each cylinder."""
         keys = [*zip(self._core.cylinders, self._core.details, strict=True)]
-        known = {key: Cylinder._of(*key) for key in set(keys)}
-        return tuple(known[key] for key in keys)
+        by_key = {key: Cylinder._of(*key) for key in set(keys)}
+        return tuple(by_key[key] for key in keys)
 
     @property
     def tdc_deg(self) -> NDArray[np.float64]:
@@ -205,8 +205,8 @@ class EngineData:
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m; by default midway between the end cylinders."""
-        given = self._core.reference_z
-        return self._core.middle if given is None else given
+        z = self._core.reference_z
+        return self._core.middle if z is None else z
 
     @property
     def cycles(self) -> tuple[Cycle | None, ...] | None:
@@ -214,12 +214,12 @@ class EngineData:
         cores = self._core.cycles
         if cores is None:
             return None
-        known: dict[_core.Cycle, Cycle] = {}
+        by_core: dict[_core.Cycle, Cycle] = {}
         for core in cores:
-            if core is not None and core not in known:
+            if core is not None and core not in by_core:
                 with suppressed():  # Warned of where it was given.
-                    known[core] = Cycle._of(core)
-        return tuple(None if core is None else known[core] for core in cores)
+                    by_core[core] = Cycle._of(core)
+        return tuple(None if core is None else by_core[core] for core in cores)
 
     @property
     def crankcase(self) -> float | None:
@@ -333,10 +333,10 @@ class EngineData:
         Those of the right bank if there are two; undefined for more, and for cylinders on several
         crankshafts. Of shape (n_throws,).
         """
-        found = self._banks_of_one_crank("throws_deg")
-        if len(found) > 2:
+        banks = self._banks_of_one_crank("throws_deg")
+        if len(banks) > 2:
             raise self._of_banks("throws_deg", "one or two are needed; see pin_deg")
-        pins = self.pin_deg[self._along(next(iter(found.values())))]
+        pins = self.pin_deg[self._along(next(iter(banks.values())))]
         return read_only(_reduced(pins - pins[0]))
 
     @property
@@ -345,10 +345,10 @@ class EngineData:
 
         Undefined unless there are two banks of as many cylinders, on one crankshaft.
         """
-        found = self._banks_of_one_crank("pin_split_deg")
-        if len(found) != 2:
+        banks = self._banks_of_one_crank("pin_split_deg")
+        if len(banks) != 2:
             raise self._of_banks("pin_split_deg", "exactly two are needed")
-        right, left = (self._along(numbers) for numbers in found.values())
+        right, left = (self._along(numbers) for numbers in banks.values())
         if len(right) != len(left):
             sizes = f"{len(right)} cylinders in the right bank and {len(left)} in the left"
             raise self._undefined("pin_split_deg", f"it has {sizes}; as many are needed")
@@ -369,10 +369,10 @@ class EngineData:
 
     def _of_banks(self, name: str, needed: str) -> InputError:
         directions = list(dict.fromkeys(self.bank_deg.tolist()))
-        listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
-        listed += ", …" if len(directions) > 4 else ""
+        texts = ", ".join(f"{direction:.6g}°" for direction in directions[:4])
+        texts += ", …" if len(directions) > 4 else ""
         count = "one bank" if len(self.banks) == 1 else f"{len(self.banks)} banks"
-        return self._undefined(name, f"it has {count} ({listed}); {needed}")
+        return self._undefined(name, f"it has {count} ({texts}); {needed}")
 
     @staticmethod
     def _undefined(name: str, reason: str) -> InputError:
@@ -388,12 +388,12 @@ class EngineData:
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
         """Return the rotating masses that stay, or come with the rods, as cylinders change."""
         masses: list[float] = self.rotating_mass.tolist()
-        each: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
-        if not isinstance(each, (list, tuple)) or len(each) != len(self):
+        cylinders: Any = [cylinder] * len(self) if isinstance(cylinder, Cylinder) else cylinder
+        if not isinstance(cylinders, (list, tuple)) or len(cylinders) != len(self):
             return masses  # those of the engine, or rejected where cylinders are read
         return [
             big_end(new) if getattr(new, "rod", None) and mass == big_end(old) else mass
-            for new, old, mass in zip(each, self.cylinders, masses, strict=True)
+            for new, old, mass in zip(cylinders, self.cylinders, masses, strict=True)
         ]
 
     def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
@@ -675,15 +675,15 @@ class EngineData:
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
         same = isinstance(cycle, Cycle)
-        each: list[Any] = (
+        cycles: list[Any] = (
             [None if one.dummy else cycle for one in self.cylinders]
             if same
             else inputs.items("cycle", cycle, hint)
         )
-        for k, one in enumerate(each):
+        for k, one in enumerate(cycles):
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
-        cores = [None if one is None else one._core for one in each]
+        cores = [None if one is None else one._core for one in cycles]
         if all(core is None for core in cores):
             inputs.only_with("cycle", crankcase=crankcase)
         below = other._below_pistons(crankcase)
@@ -917,20 +917,20 @@ def core_of_lists(
     """Return the engine of :meth:`Engine.from_lists`; cylinders of equal ``bank`` form one."""
     banks = inputs.angles("bank_deg", bank_deg)
     if isinstance(cylinder, Cylinder):
-        each = [cylinder] * len(banks)
+        cylinders = [cylinder] * len(banks)
     else:
-        each = inputs.items(
+        cylinders = inputs.items(
             "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
         )
     core = _core.Engine.from_lists(
-        [parts(one) for one in each],
+        [parts(one) for one in cylinders],
         None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
         None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
         banks,
         bank,
         inputs.listed_numbers("z", z),
         (
-            [big_end(one) for one in each]
+            [big_end(one) for one in cylinders]
             if rotating_mass is None
             else inputs.per_item("rotating_mass", rotating_mass, len(banks))
         ),
@@ -938,7 +938,7 @@ def core_of_lists(
     )
     bearings = [] if mains is None else inputs.listed_numbers("mains", mains)
     plane = inputs.optional_number("reference_z", reference_z)
-    core = core.keeping([one._details for one in each], bearings, plane)
+    core = core.keeping([one._details for one in cylinders], bearings, plane)
     checks.units(core)
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
     checks.place(core, "reference_z", plane)
@@ -971,7 +971,7 @@ def _dummies(core: _CoreEngine) -> set[int]:
 def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
     """Return a firing order of all chambers; an empty text if the crank does not allow it."""
     silent = {str(number) for number in _silent(core)}
-    groups = ([each for each in group.split("+") if each not in silent]
+    groups = ([number for number in group.split("+") if number not in silent]
               for group in firing_order.split("-"))  # fmt: skip
     order = "-".join("+".join(group) for group in groups if group)
     try:

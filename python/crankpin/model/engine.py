@@ -609,8 +609,8 @@ class Engine(Framed, Builders):
             return throws if len(self.banks) == 1 else ""
         if not splits.any():
             return f"{throws}, shared pins"
-        listed = [f"{split:.6g}" for split in splits]
-        return f"{throws}, pins split by {listed[0] if len({*listed}) == 1 else ', '.join(listed)}°"
+        texts = [f"{split:.6g}" for split in splits]
+        return f"{throws}, pins split by {texts[0] if len({*texts}) == 1 else ', '.join(texts)}°"
 
     def _repr_html_(self) -> str:
         """Return a picture above the table, where matplotlib is installed."""

@@ -15,14 +15,14 @@ from typing import Any
 from crankpin import _core
 from crankpin._support import inputs
 
-ENDINGS = (".toml", ".json")
+ENGINE_ENDINGS = (".toml", ".json")
 MULTILINE = ('"""', "'''")
 """Quotes of texts of several lines, between which nothing may be added."""
 
 
 def checked(path: object, name: str = "path") -> Path:
     """Return the path of an engine file, its ending checked."""
-    return inputs.file_path(path, ENDINGS, "an engine file ends in .toml or .json", name)
+    return inputs.file_path(path, ENGINE_ENDINGS, "an engine file ends in .toml or .json", name)
 
 
 def is_toml(file: Path) -> bool:
@@ -33,9 +33,9 @@ def is_toml(file: Path) -> bool:
 def read(file: Path) -> str:
     """Return the text of an engine file, or as much of it as the error of a longer one needs."""
     with file.open("rb") as opened:
-        found = opened.read(_core.LONGEST_FILE + 1)
+        content = opened.read(_core.LONGEST_FILE + 1)
     try:
-        return found.decode("utf-8")
+        return content.decode("utf-8")
     except UnicodeDecodeError as error:
         raise inputs.rejected("path", str(file), f"{error}; an engine file is UTF-8") from None
 
@@ -46,10 +46,10 @@ def check_keeps_mounts(file: Path) -> None:
         return
     try:
         text = read(file)
-        there = tomllib.loads(text) if is_toml(file) else json.loads(text)
+        content = tomllib.loads(text) if is_toml(file) else json.loads(text)
     except ValueError:
         return
-    if isinstance(there, dict) and "powertrain" in there:
+    if isinstance(content, dict) and "powertrain" in content:
         hint = "its [powertrain] would be lost: save a crankpin.Powertrain, or give another name"
         raise inputs.rejected("path", str(file), hint)
 
@@ -58,26 +58,26 @@ def check_keeps_mounts(file: Path) -> None:
 def schema() -> dict[str, Any]:
     """Return the JSON schema of engine files."""
     text = Path(__file__).with_name("engine.schema.json").read_text(encoding="utf-8")
-    found: dict[str, Any] = json.loads(text)
-    return found
+    values: dict[str, Any] = json.loads(text)
+    return values
 
 
 @functools.cache
 def descriptions() -> dict[str, str]:
     """Return what each entry means by its place, such as "cylinder.bore" or "placements"."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
 
     def collect(node: dict[str, Any], place: str) -> None:
         inner = schema()["$defs"][node["$ref"].rpartition("/")[2]] if "$ref" in node else node
         if "description" in node:
-            found[place] = node["description"]
+            texts[place] = node["description"]
         for name, entry in inner.get("properties", {}).items():
             collect(entry, f"{place}.{name}".strip("."))
         if "items" in inner:
             collect(inner["items"], place)
 
     collect({key: value for key, value in schema().items() if key != "description"}, "")
-    return found
+    return texts
 
 
 def commented(text: str) -> str:

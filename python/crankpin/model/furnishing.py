@@ -25,8 +25,8 @@ def one_of(cylinder: object) -> Any:  # noqa: ANN401 - a cylinder, or what is to
         return next(iter(cylinder.values()), None)
     if isinstance(cylinder, Cylinder) or not isinstance(cylinder, Iterable):
         return cylinder
-    listed = inputs.items("cylinder", cylinder, CYLINDERS)
-    return listed[0] if listed else None
+    entries = inputs.items("cylinder", cylinder, CYLINDERS)
+    return entries[0] if entries else None
 
 
 def furnished(
@@ -50,9 +50,9 @@ def furnished(
     """
     if isinstance(cylinder, Cylinder):
         return _fired(engine, firing_order)
-    each = _each(engine, cylinder)
-    masses = None if rotating_mass is not None else [big_end(one) for one in each]
-    return _fired(engine.replace(cylinder=each, rotating_mass=masses), firing_order)
+    cylinders = _each(engine, cylinder)
+    masses = None if rotating_mass is not None else [big_end(one) for one in cylinders]
+    return _fired(engine.replace(cylinder=cylinders, rotating_mass=masses), firing_order)
 
 
 def _fired(engine: Built, firing_order: str | Iterable[int]) -> Built:
@@ -61,7 +61,7 @@ def _fired(engine: Built, firing_order: str | Iterable[int]) -> Built:
 
 def _each(engine: EngineData, cylinder: object) -> list[Cylinder]:
     """Return the parts of each cylinder."""
-    count, listed = len(engine), list[object]()
+    count, entries = len(engine), list[object]()
     if isinstance(cylinder, Cylinder):
         return [cylinder] * count
     if isinstance(cylinder, Mapping):
@@ -72,13 +72,13 @@ def _each(engine: EngineData, cylinder: object) -> list[Cylinder]:
             if name not in cylinder:
                 raise inputs.faulty("cylinder", f'has none for "{name}"', CYLINDERS)
         bank_of = {number: name for name, numbers in banks.items() for number in numbers}
-        listed = [cylinder[bank_of[number]] for number in range(1, count + 1)]
+        entries = [cylinder[bank_of[number]] for number in range(1, count + 1)]
     else:
-        listed = inputs.items("cylinder", cylinder, CYLINDERS)
-    if len(listed) != count:
+        entries = inputs.items("cylinder", cylinder, CYLINDERS)
+    if len(entries) != count:
         hint = f"give one, or {count}"
-        raise inputs.faulty("cylinder", f"has {len(listed)} entries", hint)
-    found = [one for one in listed if isinstance(one, Cylinder)]
-    if len(found) < count:
+        raise inputs.faulty("cylinder", f"has {len(entries)} entries", hint)
+    cylinders = [one for one in entries if isinstance(one, Cylinder)]
+    if len(cylinders) < count:
         raise inputs.rejected("cylinder", cylinder, CYLINDERS)
-    return found
+    return cylinders

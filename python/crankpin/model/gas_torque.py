@@ -17,10 +17,10 @@ from crankpin.model.computed_cycles import example
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 
-FILE: Final = Path(__file__).with_name("gas_torque.csv")
+TABLE_FILE: Final = Path(__file__).with_name("gas_torque.csv")
 ROD_RATIOS: Final = (0.25, 0.3, 0.4)
 """λ = r/l of the table: long rods, cars, large two-strokes."""
-HIGHEST: Final = 12
+HIGHEST_TABULATED: Final = 12
 """Highest order of the table."""
 HEADER: Final = (
     ("cycle", ""),
@@ -121,7 +121,7 @@ def compute() -> Table:
         for rod_ratio in ROD_RATIOS:
             cycle, cylinder = stated_cycle(name, rod_ratio)
             step = 1.0 if cycle.strokes == 2 else 0.5
-            orders = np.arange(step, HIGHEST + step, step)
+            orders = np.arange(step, HIGHEST_TABULATED + step, step)
             # Mean torque is imep·A·r over π in a two-stroke, over 2π in a four-stroke.
             mean = cycle.mean_torque(cylinder)
             scale = mean * np.pi * (1 if cycle.strokes == 2 else 2)
@@ -166,7 +166,7 @@ def gas_torque_harmonics() -> Table:
     >>> sorted(set(table["cycle"].values))[:2]
     ['diesel, full load', 'diesel, half load']
     """
-    with FILE.open(encoding="utf-8", newline="") as opened:
+    with TABLE_FILE.open(encoding="utf-8", newline="") as opened:
         rows = list(csv.reader(line for line in opened if not line.startswith("#")))
     return _table([[name, *map(float, figures)] for name, *figures in rows[1:]])
 

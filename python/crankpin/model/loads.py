@@ -234,14 +234,14 @@ class PeriodicLoad(Input):
         (-1j, (2+0j))
         """
         count = inputs.whole("turns", turns, 1, 2)
-        listed = inputs.is_listed(rpm)
+        several = inputs.is_listed(rpm)
         amplitudes: dict[str, Any] = {}
         for quantity, samples in (("force", force), ("torque", torque)):
             if samples is None:
                 continue
             rows = np.atleast_2d(inputs.array(quantity, samples))
-            if rows.ndim != 2 or (np.ndim(samples) == 2) != listed:
-                shape = "(n_rpm, n_samples)" if listed else "(n_samples,)"
+            if rows.ndim != 2 or (np.ndim(samples) == 2) != several:
+                shape = "(n_rpm, n_samples)" if several else "(n_samples,)"
                 raise inputs.rejected(quantity, samples, f"give samples of shape {shape}")
             if rows.shape[1] < 3:  # two do not determine cosine and sine
                 raise inputs.rejected(quantity, samples, "give 3 samples or more over its period")
@@ -249,8 +249,8 @@ class PeriodicLoad(Input):
             by_order = _orders_of(rows, count)
             if quantity == "force" and not options.get("turning", False):
                 del by_order[0]
-            kept = {n: values for n, values in by_order.items() if any(values)}
-            amplitudes[quantity] = kept if listed else {n: a[0] for n, a in kept.items()}
+            nonzero = {n: values for n, values in by_order.items() if any(values)}
+            amplitudes[quantity] = nonzero if several else {n: a[0] for n, a in nonzero.items()}
         return cls(name, on=on, rpm=rpm, **amplitudes, **options)
 
     def _text(self) -> str:
@@ -307,10 +307,10 @@ class PeriodicLoad(Input):
         )
 
 
-def with_loads(core: _core.Engine, given: Iterable[PeriodicLoad]) -> _core.Engine:
+def with_loads(core: _core.Engine, loads: Iterable[PeriodicLoad]) -> _core.Engine:
     """Return an engine with these periodic loads."""
-    listed = listed_items("loads", given, PeriodicLoad)
-    return core.with_loads(f"[{', '.join(each._text() for each in listed)}]")
+    entries = listed_items("loads", loads, PeriodicLoad)
+    return core.with_loads(f"[{', '.join(load._text() for load in entries)}]")
 
 
 def loads(core: _core.Engine) -> tuple[PeriodicLoad, ...]:
@@ -320,41 +320,43 @@ def loads(core: _core.Engine) -> tuple[PeriodicLoad, ...]:
 
 def of_speed_squared(engine: Engine) -> Engine:
     """Return an engine without the loads that do not scale with the square of the speed."""
-    kept = [load for load in engine.loads if load.scaling == "speed squared"]
-    return engine if len(kept) == len(engine.loads) else engine.with_loads(kept)
+    remaining = [load for load in engine.loads if load.scaling == "speed squared"]
+    return engine if len(remaining) == len(engine.loads) else engine.with_loads(remaining)
 
 
 def lines(core: _core.Engine) -> list[units.Text]:
     """Return the periodic loads in words."""
-    listed = loads(core)
-    found = []
-    for each in listed[:4]:
-        what = " and ".join(name for name in ("force", "torque") if getattr(each, name))
-        on = "shaft and block" if each.on == "both" else each.on
-        name = labels.one_line(each.name)
+    all_loads = loads(core)
+    texts = []
+    for load in all_loads[:4]:
+        what = " and ".join(name for name in ("force", "torque") if getattr(load, name))
+        on = "shaft and block" if load.on == "both" else load.on
+        name = labels.one_line(load.name)
         words = f"load {name}: {what} on {on}, z = "
-        found.append(units.Text(words, units.figure(each.z, "m", 4)))
-    return found + [units.Text("…")] * (len(listed) > 4)
+        texts.append(units.Text(words, units.figure(load.z, "m", 4)))
+    return texts + [units.Text("…")] * (len(all_loads) > 4)
 
 
-def _amplitudes(name: str, given: object, rows: int | None) -> Mapping[Order, Any]:
-    if given is None:
+def _amplitudes(name: str, mapping: object, rows: int | None) -> Mapping[Order, Any]:
+    if mapping is None:
         return read_only({})
-    if not isinstance(given, Mapping):
-        raise inputs.rejected(name, given, "give a mapping: order → complex amplitude, {2: 4 - 1j}")
-    listed: dict[Order, Any] = {}
-    for order, value in given.items():
+    if not isinstance(mapping, Mapping):
+        raise inputs.rejected(
+            name, mapping, "give a mapping: order → complex amplitude, {2: 4 - 1j}"
+        )
+    amplitudes: dict[Order, Any] = {}
+    for order, value in mapping.items():
         key = 0 if order == 0 else inputs.explicit_half_orders([order], name)[0]
-        if key in listed:
+        if key in amplitudes:
             raise inputs.rejected(name, order, "is given twice; give each order once")
         if rows is None:
-            listed[key] = _amplitude(f"{name}[{key}]", value)
+            amplitudes[key] = _amplitude(f"{name}[{key}]", value)
         else:
             values = inputs.items(f"{name}[{key}]", value, "give one amplitude for each speed")
             if len(values) != rows:
                 raise inputs.rejected(f"{name}[{key}]", value, f"give {rows}, one for each speed")
-            listed[key] = tuple(_amplitude(f"{name}[{key}]", each) for each in values)
-    return read_only(dict(sorted(listed.items())))
+            amplitudes[key] = tuple(_amplitude(f"{name}[{key}]", component) for component in values)
+    return read_only(dict(sorted(amplitudes.items())))
 
 
 def _amplitude(name: str, value: object) -> complex:
@@ -372,18 +374,25 @@ def _amplitude(name: str, value: object) -> complex:
 
 def _rows(amplitudes: Mapping[Order, Any]) -> list[list[float]]:
     return [
-        [order, *(part for each in np.atleast_1d(value) for part in (each.real, each.imag))]
+        [
+            order,
+            *(
+                part
+                for component in np.atleast_1d(value)
+                for part in (component.real, component.imag)
+            ),
+        ]
         for order, value in amplitudes.items()
     ]
 
 
 def of_rows(rows: Iterable[Sequence[float]], *, table: bool) -> dict[Order, Any]:
     """Return amplitudes by order of rows of an order, then real and imaginary parts."""
-    found: dict[Order, Any] = {}
+    amplitudes: dict[Order, Any] = {}
     for order, *parts in rows:
         values = [complex(re, im) for re, im in zip(parts[::2], parts[1::2], strict=True)]
-        found[int(order) if order == int(order) else order] = values if table else values[0]
-    return found
+        amplitudes[int(order) if order == int(order) else order] = values if table else values[0]
+    return amplitudes
 
 
 def _orders_of(rows: np.ndarray[Any, Any], turns: int) -> dict[Order, list[complex]]:

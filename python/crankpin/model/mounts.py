@@ -70,16 +70,16 @@ class RigidBody(Input):
     ) -> None:
         mass = inputs.number("mass", mass)
         center = _vector("cg", cg)
-        given = inputs.array("inertia", inertia)
-        if given.shape not in ((3,), (3, 3)):
+        numbers = inputs.array("inertia", inertia)
+        if numbers.shape not in ((3,), (3, 3)):
             hint = (
                 "give three rows of three numbers, or the three moments of a body without products"
             )
-            raise inputs.faulty("inertia", f"has shape {given.shape}", hint)
-        given = np.diag(given) if given.ndim == 1 else given
+            raise inputs.faulty("inertia", f"has shape {numbers.shape}", hint)
+        numbers = np.diag(numbers) if numbers.ndim == 1 else numbers
         if products is not None:
             inputs.one_of("products", products, ("tensor", "positive-integrals"))
-        tensor, moments = _core.rigid_body(mass, center, given.tolist(), products)
+        tensor, moments = _core.rigid_body(mass, center, numbers.tolist(), products)
         has_products = any(tensor[i][j] for i in range(3) for j in range(i))
         fields = {
             "mass": mass,
@@ -303,10 +303,10 @@ class Mount(Input):
 
 def _vector(name: str, values: object) -> Vector:
     """Return three finite numbers."""
-    listed = inputs.items(name, values, THREE)
-    if len(listed) != 3:
+    entries = inputs.items(name, values, THREE)
+    if len(entries) != 3:
         raise inputs.rejected(name, values, THREE)
-    x, y, z = (inputs.finite(f"{name}[{k}]", each) for k, each in enumerate(listed))
+    x, y, z = (inputs.finite(f"{name}[{k}]", coordinate) for k, coordinate in enumerate(entries))
     return (x, y, z)
 
 
@@ -318,14 +318,14 @@ def _along_axes(name: str, values: Any) -> Vector:  # noqa: ANN401 - a number or
     return _vector(name, values)
 
 
-def _table(given: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: ANN401 - checked here
+def _table(rows: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: ANN401 - checked here
     """Return frequencies and complex stiffnesses along the axes."""
     hint = (
         "give a pair: frequencies in Hz, and complex stiffnesses of shape (n_frequencies, 3), N/m"
     )
-    pair = inputs.items("table", given, hint)
+    pair = inputs.items("table", rows, hint)
     if len(pair) != 2:
-        raise inputs.rejected("table", given, hint)
+        raise inputs.rejected("table", rows, hint)
     frequency = inputs.listed_numbers("table: frequency", pair[0])
     try:
         stiffness = np.array(pair[1], dtype=complex)

@@ -60,7 +60,7 @@ UNLIKE = 0.05
 """Deviation from the median, over its range, from which a cycle is odd."""
 BEGINNING = "measured pressure: "
 """Beginning of the warning of spikes and odd cycles."""
-NAMED = 3
+MOST_CYCLES_NAMED = 3
 """Number of cycles that a warning names; of more it gives the count."""
 
 
@@ -86,9 +86,11 @@ class Odd(NamedTuple):
             return f"{name} has {has} {height} at {self.at_deg:.4g}°"
         if self.kind == "shifted":
             return f"{name} is shifted by {self.size:.3g}°"
-        said = f"{100.0 * self.size:.3g} % of the usual"
+        share = f"{100.0 * self.size:.3g} % of the usual"
         return (
-            f"{name} misfires ({said})" if self.kind == "misfire" else f"{name} is unlike ({said})"
+            f"{name} misfires ({share})"
+            if self.kind == "misfire"
+            else f"{name} is unlike ({share})"
         )
 
 
@@ -105,7 +107,7 @@ class Oddities(NamedTuple):
     @property
     def cycles(self) -> tuple[int, ...]:
         """Indices of odd cycles."""
-        return tuple(sorted({each.cycle for each in self.listed if each.kind != "spike"}))
+        return tuple(sorted({oddity.cycle for oddity in self.listed if oddity.kind != "spike"}))
 
     def repaired(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return pressure without the spikes, interpolated beside the median."""
@@ -130,7 +132,7 @@ def find(
     middle = middle if several else np.zeros(len(theta_deg))
     apart = pressure - middle
     heights = _heights(apart, step, spread, alone=not several)
-    found, samples, values = list[Odd](), list[tuple[int, int]](), list[float]()
+    oddities, samples, values = list[Odd](), list[tuple[int, int]](), list[float]()
     clean = apart.copy()
     by_cycle: dict[int, list[Odd]] = {}
     for cycle in np.flatnonzero(heights.any(axis=1)).tolist():
@@ -142,7 +144,7 @@ def find(
             for k in tops
         ]
         if len(groups) > MOST_SPIKES:
-            largest = max(figures, key=lambda each: abs(each.size))
+            largest = max(figures, key=lambda oddity: abs(oddity.size))
             by_cycle[cycle] = [largest._replace(kind="oscillation")]
             continue
         by_cycle[cycle] = figures
@@ -155,20 +157,20 @@ def find(
     if several:
         odd = _unlike(theta_deg, clean + middle, middle, period_deg)
     for cycle in sorted({*by_cycle, *odd}):
-        found += [odd[cycle]] if cycle in odd else by_cycle[cycle]
-    kept = [k for k, (cycle, _) in enumerate(samples) if cycle not in odd]
+        oddities += [odd[cycle]] if cycle in odd else by_cycle[cycle]
+    sound = [k for k, (cycle, _) in enumerate(samples) if cycle not in odd]
     return Oddities(
-        tuple(found),
-        np.array([samples[k] for k in kept], dtype=np.intp).reshape(-1, 2),
-        np.array([values[k] for k in kept]),
+        tuple(oddities),
+        np.array([samples[k] for k in sound], dtype=np.intp).reshape(-1, 2),
+        np.array([values[k] for k in sound]),
     )
 
 
 def _median(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the median of each column, some at a time: Ctrl-C is answered in between."""
-    width = max(1, inputs.PIECE // max(1, len(rows)))
+    width = max(1, inputs.PIECE_NUMBERS // max(1, len(rows)))
     pieces = [rows[:, k : k + width] for k in range(0, rows.shape[1], width)]
-    return np.concatenate([np.median(each, axis=0) for each in pieces] or [np.empty(0)])
+    return np.concatenate([np.median(piece, axis=0) for piece in pieces] or [np.empty(0)])
 
 
 def _heights(
@@ -194,13 +196,13 @@ def _heights(
         of_angle = _median(np.abs(apart - np.roll(apart, beside, axis=1)))
         around = [np.roll(of_angle, k) for k in range(-beside, beside + 1)]
         usual = DEVIATIONS * OF_A_NORMAL * np.max(around, axis=0)
-    found: NDArray[np.float64] = np.where(size > np.maximum(least, usual), both, 0.0)
-    return found
+    heights: NDArray[np.float64] = np.where(size > np.maximum(least, usual), both, 0.0)
+    return heights
 
 
 def _groups(places: NDArray[np.intp], count: int) -> list[list[int]]:
     """Return runs of neighbouring places; the last and the first of a cycle are neighbours."""
-    groups = [each.tolist() for each in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)]
+    groups = [group.tolist() for group in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)]
     if len(groups) > 1 and groups[0][0] == 0 and groups[-1][-1] == count - 1:
         groups[0] = groups.pop() + groups[0]
     return groups
@@ -238,30 +240,30 @@ def _unlike(
     deviation = np.sqrt((level**2).mean(axis=1)) / float(np.ptp(middle))
     usual = float(np.nanmedian(shifts))
     weak = [burnt[k] < MISFIRE and _is_far(burnt, k, 0.0) for k in range(len(pressure))]
-    found: dict[int, Odd] = {}
+    by_cycle: dict[int, Odd] = {}
     for cycle in range(len(pressure)):
         if math.isnan(shifts[cycle]):
-            found[cycle] = Odd(cycle, "unlike", math.nan, float(compressed[cycle]), "")
+            by_cycle[cycle] = Odd(cycle, "unlike", math.nan, float(compressed[cycle]), "")
         elif abs(shifts[cycle] - usual) < NEARLY and weak[cycle]:
-            found[cycle] = Odd(cycle, "misfire", math.nan, float(burnt[cycle]), "")
+            by_cycle[cycle] = Odd(cycle, "misfire", math.nan, float(burnt[cycle]), "")
         elif _is_far(shifts, cycle, SHIFTED, SHIFT_DEVIATIONS):
-            found[cycle] = Odd(cycle, "shifted", math.nan, float(shifts[cycle]), "°")
+            by_cycle[cycle] = Odd(cycle, "shifted", math.nan, float(shifts[cycle]), "°")
         elif compressed[cycle] < LEAST_COMPRESSION and _is_far(compressed, cycle, 0.0):
-            found[cycle] = Odd(cycle, "unlike", math.nan, float(compressed[cycle]), "")
+            by_cycle[cycle] = Odd(cycle, "unlike", math.nan, float(compressed[cycle]), "")
         elif weak[cycle]:
-            found[cycle] = Odd(cycle, "misfire", math.nan, float(burnt[cycle]), "")
+            by_cycle[cycle] = Odd(cycle, "misfire", math.nan, float(burnt[cycle]), "")
         elif (burnt[cycle] > STRONG and _is_far(burnt, cycle, 0.0)) or (
             deviation[cycle] > UNLIKE and _is_far(deviation, cycle, UNLIKE)
         ):
-            found[cycle] = Odd(cycle, "unlike", math.nan, float(burnt[cycle]), "")
-    return found
+            by_cycle[cycle] = Odd(cycle, "unlike", math.nan, float(burnt[cycle]), "")
+    return by_cycle
 
 
 def _relative(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return values over their median; 1 where that is nothing."""
     usual = float(np.median(values))
-    found: NDArray[np.float64] = values / usual if usual > 0.0 else np.ones(len(values))
-    return found
+    shares: NDArray[np.float64] = values / usual if usual > 0.0 else np.ones(len(values))
+    return shares
 
 
 def _is_far(
@@ -303,18 +305,21 @@ def _shifts(
     left, mid, right = (costs[index, best + k] for k in (-1, 0, 1))
     bend = left - 2.0 * mid + right
     fine = np.divide(left - right, 2.0 * bend, out=np.zeros(len(rows)), where=bend > 0.0)
-    found = (lags[best] + fine.clip(-1.0, 1.0)) * step
+    shifts = (lags[best] + fine.clip(-1.0, 1.0)) * step
     far, left_over = np.abs(coarse * step) > FARTHEST_SHIFT, costs.min(axis=1)
-    found, left_over = np.where(far, coarse * step, found), np.where(far, cost(coarse), left_over)
-    found[left_over > (1.0 - LEAST_MATCH) * float(model @ model)] = np.nan
-    return np.asarray(found, dtype=np.float64)
+    shifts, left_over = np.where(far, coarse * step, shifts), np.where(far, cost(coarse), left_over)
+    shifts[left_over > (1.0 - LEAST_MATCH) * float(model @ model)] = np.nan
+    return np.asarray(shifts, dtype=np.float64)
 
 
 def report(oddities: Oddities) -> None:
     """Warn of spikes and odd cycles, the gravest of each first."""
-    if listed := sorted(oddities.listed, key=lambda each: (each.kind == "spike", each.cycle)):
-        more = f" and {len(listed) - NAMED} more" if len(listed) > NAMED else ""
+    if ordered := sorted(
+        oddities.listed, key=lambda oddity: (oddity.kind == "spike", oddity.cycle)
+    ):
+        rest = len(ordered) - MOST_CYCLES_NAMED
+        names = ", ".join(map(str, ordered[:MOST_CYCLES_NAMED]))
         warn(
-            f"{BEGINNING}{', '.join(map(str, listed[:NAMED]))}{more}; crankpin.prepare_trace "
+            f"{BEGINNING}{names}{f' and {rest} more' if rest > 0 else ''}; crankpin.prepare_trace "
             'replaces spikes, spikes="replace", and leaves odd cycles out, leave_out="odd"'
         )

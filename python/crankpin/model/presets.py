@@ -129,11 +129,11 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
         raise unknown("name", name)
     if cylinder is not None and not isinstance(cylinder, Cylinder):
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
-    found = layout(name)
-    distance = found.spacing if spacing is None else inputs.number("spacing", spacing)
+    base = layout(name)
+    distance = base.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):
         raise inputs.rejected("spacing", distance, "give a finite distance in metres")
-    return found.build(found.cylinder if cylinder is None else cylinder, distance)
+    return base.build(base.cylinder if cylinder is None else cylinder, distance)
 
 
 class Layout(NamedTuple):
@@ -169,12 +169,12 @@ class Layout(NamedTuple):
                 raise inputs.faulty("cylinder", f"has {len(parts)} entries", hint)
             if np.ndim(spacing):
                 raise inputs.rejected("spacing", spacing, "give one number with this layout")
-            each = [
+            cylinders = [
                 part.replace(pin_offset=part.pin_offset + more)
                 for part, more in zip(parts, offsets, strict=True)
             ]
             z = [_core.product(spacing, place) for place in places]
-            return Engine.from_lists(each, z=z, **arguments)
+            return Engine.from_lists(cylinders, z=z, **arguments)
         if self.builder != "from_lists":
             arguments["spacing"] = spacing
         engine: Engine = getattr(Engine, self.builder)(cylinder, **arguments)
@@ -226,11 +226,11 @@ def family(name: str) -> list[str]:
     """
     if name in Presets():
         return [name]
-    members = [each for each in Presets() if each.startswith(f"{name}-")]
-    return [each for each in members if not each.endswith(OWN_PARTS)] or [name]
+    members = [preset for preset in Presets() if preset.startswith(f"{name}-")]
+    return [preset for preset in members if not preset.endswith(OWN_PARTS)] or [name]
 
 
-def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> InputError:
+def unknown(argument: str, name: str, *, typed: bool = False, further: str = "") -> InputError:
     """Return the error of a name that is no preset's: the nearest ones, and what builds it.
 
     Parameters
@@ -246,30 +246,30 @@ def unknown(argument: str, name: str, *, typed: bool = False, own: str = "") -> 
     """
     plain = re.sub(r"[\s_]+", "-", name[:80].strip().lower())
     plain = plain if family(plain) != [plain] else named(plain)
-    titles = {engine.name.lower(): each for each, engine in Presets().items()}
-    words = {each: each for each in Presets()} | titles | dict(aliases())
+    titles = {engine.name.lower(): preset for preset, engine in Presets().items()}
+    words = {preset: preset for preset in Presets()} | titles | dict(aliases())
     meant = family(plain)
     if meant == [plain] and plain not in Presets():
-        meant = [words[each] for each in difflib.get_close_matches(plain, words, 1, MISTYPED)]
+        meant = [words[match] for match in difflib.get_close_matches(plain, words, 1, MISTYPED)]
     built, near = "", meant
     if not meant:
-        near = [each for each in family(plain.rpartition("-")[0]) if each in Presets()]
-        near = near or [words[each] for each in difflib.get_close_matches(plain, words, 3, 0.7)]
+        near = [preset for preset in family(plain.rpartition("-")[0]) if preset in Presets()]
+        near = near or [words[match] for match in difflib.get_close_matches(plain, words, 3, 0.7)]
         is_file = re.search(r"\.[a-z]+$", plain)  # with another ending than those of engine files
         built = "" if is_file else _recipe(plain, typed=typed)
     if not (near or built):
         more = "crankpin new makes" if typed else "Engine.inline, vee and the like make"
-        built = f"{own or f'{more} engines of your own'}; "
-    quoted = " or ".join(f'"{each}"' for each in dict.fromkeys(near))
+        built = f"{further or f'{more} engines of your own'}; "
+    quoted = " or ".join(f'"{preset}"' for preset in dict.fromkeys(near))
     question = f"did you mean {quoted}? " if near else ""
     listing = (
         '"crankpin presets" lists all; engine files end in .toml or .json'
         if typed
         else "crankpin.presets() lists all"
     )
-    shown = labels.cut(labels.one_line(name), 80)
+    title = labels.cut(labels.one_line(name), 80)
     hint = f"no such preset; {question}{built}{listing}"
-    return inputs.faulty(argument, f'= "{shown}"', hint, AbsentItemError)
+    return inputs.faulty(argument, f'= "{title}"', hint, AbsentItemError)
 
 
 RECIPES = (

@@ -156,21 +156,21 @@ class Shaft(Input):
         object.__setattr__(self, "y", inputs.finite("y", y))
         object.__setattr__(self, "name", inputs.text("name", name))
         object.__setattr__(self, "unbalances", listed_items("unbalances", unbalances, Unbalance))
-        for k, each in enumerate(self.unbalances):
-            if each.pin is not None:
+        for k, weight in enumerate(self.unbalances):
+            if weight.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
-                raise inputs.rejected(f"unbalances[{k}].pin", each.pin, hint)
-            if each.crank:
+                raise inputs.rejected(f"unbalances[{k}].pin", weight.pin, hint)
+            if weight.crank:
                 hint = "leave it out: the shaft carries it"
-                raise inputs.rejected(f"unbalances[{k}].crank", each.crank, hint)
+                raise inputs.rejected(f"unbalances[{k}].crank", weight.crank, hint)
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
     """Return an engine with these unbalances on its cranks."""
-    listed = listed_items("counterweights", weights, Unbalance)
-    made = core.with_counterweights([_weight(weight) for weight in listed])
-    checks.hardware(made, of_shafts=False)
-    return made
+    entries = listed_items("counterweights", weights, Unbalance)
+    changed_core = core.with_counterweights([_weight(weight) for weight in entries])
+    checks.hardware(changed_core, of_shafts=False)
+    return changed_core
 
 
 def with_more(
@@ -186,12 +186,12 @@ def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
     return tuple(unbalance_of(weight) for weight in core.counterweights)
 
 
-def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
+def with_shafts(core: _core.Engine, shafts: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
-    listed = listed_items("shafts", given, Shaft)
-    made = core.with_shafts([_shaft(each) for each in listed])
-    checks.hardware(made, of_shafts=True)
-    return made
+    entries = listed_items("shafts", shafts, Shaft)
+    changed_core = core.with_shafts([_shaft(shaft) for shaft in entries])
+    checks.hardware(changed_core, of_shafts=True)
+    return changed_core
 
 
 def shafts(core: _core.Engine) -> tuple[Shaft, ...]:
@@ -210,32 +210,32 @@ def repeat_in_a_turn(core: _core.Engine) -> bool:
 
 def lines(core: _core.Engine) -> list[units.Text]:
     """Return counterweights, shafts and further crankshafts in words."""
-    found = []
+    texts = []
     for x, y, ratio in core.cranks[0][1:5]:
-        found.append(units.Text(f"another crankshaft: ratio {ratio:+g} at ", _place(x, y)))
+        texts.append(units.Text(f"another crankshaft: ratio {ratio:+g} at ", _place(x, y)))
     if core.counterweights:
-        listed = units.joined(", ", map(_text, core.counterweights[:4]))
+        amounts = units.joined(", ", map(_text, core.counterweights[:4]))
         more = ", …" if len(core.counterweights) > 4 else ""
-        found.append(units.Text("counterweights: ", listed, more))
+        texts.append(units.Text("counterweights: ", amounts, more))
     for name, ratio, x, y, weights in core.shafts[:4]:
         total = sum(weight[0] for weight in weights)
         title = f"balance shaft {labels.one_line(name)}".strip()
         amount = units.figure(total, "kg·m", 4)
-        found.append(units.Text(f"{title}: ratio {ratio:+g} at ", _place(x, y), ", ", amount))
-    return found
+        texts.append(units.Text(f"{title}: ratio {ratio:+g} at ", _place(x, y), ", ", amount))
+    return texts
 
 
 def _place(x: float, y: float) -> units.Figure:
     return units.Figure((x, y), "m", ".4g", "({}, {})")
 
 
-def listed_items(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
+def listed_items(name: str, values: object, kind: type[Item]) -> tuple[Item, ...]:
     """Return the items of a list, each of which is of a class."""
-    listed = inputs.items(name, given, f"give a list of crankpin.{kind.__name__}")
-    for k, each in enumerate(listed):
-        if not isinstance(each, kind):
-            raise inputs.rejected(f"{name}[{k}]", each, f"give a crankpin.{kind.__name__}")
-    return tuple(listed)
+    entries = inputs.items(name, values, f"give a list of crankpin.{kind.__name__}")
+    for k, shaft in enumerate(entries):
+        if not isinstance(shaft, kind):
+            raise inputs.rejected(f"{name}[{k}]", shaft, f"give a crankpin.{kind.__name__}")
+    return tuple(entries)
 
 
 def _weight(unbalance: Unbalance) -> _Weight:

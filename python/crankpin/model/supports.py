@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 Coordinate: TypeAlias = tuple[str, str]
 """Name of a mount, and ``"x"``, ``"y"`` or ``"z"``."""
-AXES = ("x", "y", "z")
-PAIRS = 'give pairs of the name of a mount and "x", "y" or "z"'
+DIRECTIONS = ("x", "y", "z")
+PAIRS_HINT = 'give pairs of the name of a mount and "x", "y" or "z"'
 
 
 class Subframe(Input):
@@ -59,11 +59,11 @@ class Subframe(Input):
     def __post_init__(self) -> None:
         if not isinstance(self.body, RigidBody):
             raise inputs.rejected("body", self.body, "give a crankpin.RigidBody")
-        listed = inputs.items("mounts", self.mounts, "give a list of crankpin.Mount")
-        for k, mount in enumerate(listed):
+        entries = inputs.items("mounts", self.mounts, "give a list of crankpin.Mount")
+        for k, mount in enumerate(entries):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
-        self.__dict__["mounts"] = tuple(listed)
+        self.__dict__["mounts"] = tuple(entries)
         _core.check_support(self._figures)
 
     @property
@@ -111,22 +111,22 @@ class Receptance(Input):
 
     def __post_init__(self) -> None:
         pairs = []
-        for k, pair in enumerate(inputs.items("coordinates", self.coordinates, PAIRS)):
-            both = inputs.items(f"coordinates[{k}]", pair, PAIRS)
+        for k, pair in enumerate(inputs.items("coordinates", self.coordinates, PAIRS_HINT)):
+            both = inputs.items(f"coordinates[{k}]", pair, PAIRS_HINT)
             if len(both) != 2:
-                raise inputs.rejected(f"coordinates[{k}]", pair, PAIRS)
+                raise inputs.rejected(f"coordinates[{k}]", pair, PAIRS_HINT)
             name = inputs.text(f"coordinates[{k}][0]", both[0])
-            pairs.append((name, inputs.one_of(f"coordinates[{k}][1]", both[1], AXES)))
+            pairs.append((name, inputs.one_of(f"coordinates[{k}][1]", both[1], DIRECTIONS)))
         hint = (
             "give a pair: frequencies in Hz, and complex receptances of shape "
             "(n_frequencies, n_coordinates, n_coordinates), m/N"
         )
-        listed = inputs.items("table", self.table, hint)
-        if len(listed) != 2:
+        entries = inputs.items("table", self.table, hint)
+        if len(entries) != 2:
             raise inputs.rejected("table", self.table, hint)
-        frequency = inputs.listed_numbers("table: frequency", listed[0])
+        frequency = inputs.listed_numbers("table: frequency", entries[0])
         square = (len(frequency), len(pairs), len(pairs))
-        values = _complex("table: receptance", listed[1], square, hint)
+        values = _complex("table: receptance", entries[1], square, hint)
         points = []
         for name, moved in _named(self.receivers):
             hint = (
@@ -143,7 +143,7 @@ class Receptance(Input):
     def _figures(self) -> tuple[Any, ...]:
         """The figures as the core takes them."""
         frequency, values = self.table
-        places = [(name, AXES.index(axis)) for name, axis in self.coordinates]
+        places = [(name, DIRECTIONS.index(axis)) for name, axis in self.coordinates]
         rows = np.array(values).reshape(len(places) and -1, len(places) ** 2)
         points = [
             (name, np.array(moved).transpose(0, 2, 1).tolist())
@@ -173,26 +173,26 @@ def of_core(figures: Any) -> Support | None:  # noqa: ANN401 - as the core gives
     if len(figures) == 2:
         (mass, cg, inertia), mounts = figures
         body = RigidBody(mass, cg, inertia, products="tensor")
-        return Subframe(body, [Mount._of(each) for each in mounts])
+        return Subframe(body, [Mount._of(mount) for mount in mounts])
     places, frequency, rows, points = figures
     count = len(places)
     values = np.array(rows).reshape(-1, count, count)
     receivers = {name: np.array(moved).transpose(0, 2, 1) for name, moved in points}
-    coordinates = [(name, AXES[axis]) for name, axis in places]
+    coordinates = [(name, DIRECTIONS[axis]) for name, axis in places]
     return Receptance(coordinates, (frequency, values), receivers or None)
 
 
 def _complex(
     name: str,
-    given: Any,  # noqa: ANN401 - checked here
+    rows: Any,  # noqa: ANN401 - checked here
     shape: tuple[int, ...],
     hint: str,
 ) -> NDArray[np.complex128]:
     """Return complex numbers of a shape."""
     try:
-        values = np.array(given, dtype=complex)
+        values = np.array(rows, dtype=complex)
     except (TypeError, ValueError) as error:
-        raise inputs.rejected(name, given, f"{hint} ({inputs.reason(error)})") from None
+        raise inputs.rejected(name, rows, f"{hint} ({inputs.reason(error)})") from None
     if values.shape != shape:
         raise inputs.faulty(name, f"has shape {values.shape}", hint)
     return values
@@ -201,7 +201,7 @@ def _complex(
 def _nested(values: NDArray[np.complex128]) -> Any:  # noqa: ANN401 - tuples of tuples
     """Return an array as tuples, which compare and hash."""
 
-    def frozen(listed: Any) -> Any:  # noqa: ANN401 - a list or a number
-        return tuple(map(frozen, listed)) if isinstance(listed, list) else listed
+    def frozen(value: Any) -> Any:  # noqa: ANN401 - a list or a number
+        return tuple(map(frozen, value)) if isinstance(value, list) else value
 
     return frozen(values.tolist())

@@ -25,8 +25,8 @@ TEXTS = (".csv", ".tsv", ".txt", ".dat", ".asc")
 """Endings of text files."""
 SHEETS = (".xlsx", ".xlsm")
 """Endings of spreadsheets."""
-ENDINGS = (*TEXTS, *SHEETS)
-HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc, or a spreadsheet, .xlsx"
+TABLE_ENDINGS = (*TEXTS, *SHEETS)
+FILE_HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc, or a spreadsheet, .xlsx"
 
 # At the end of a piece a carriage return may be the first half of a line's end.
 _LINE = re.compile(r"\r\n|\r(?!\Z)|\n")
@@ -44,7 +44,7 @@ _UNIT = re.compile(
 
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 """Byte order marks, and what they stand for."""
-PIECE = 2**20
+PIECE_BYTES = 2**20
 """Bytes that are read and converted at once: Ctrl-C is answered in between."""
 SHEET_ROWS = 2000
 """Rows of a spreadsheet that are converted at once."""
@@ -104,7 +104,7 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
     places: list[NDArray[np.int64]] = []
     line = count = length = 0
     for texts in _pieces(file, sheet):
-        kept, at = list[str](), list[int]()
+        raw, at = list[str](), list[int]()
         for text in texts:
             line += 1
             stripped = text.strip()
@@ -121,24 +121,24 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
                     continue
                 indented = text.lstrip(" ").startswith("\t")
                 cells = _cells(stripped, separator)
-                heads, names = (_cells(each, separator) for each in (header, above))
+                heads, names = (_cells(line, separator) for line in (header, above))
                 _check_commas(stripped, line, separator, cells, heads)
                 names = names if len(names) == len(heads) == len(cells) else []
-                listed = range(len(cells)) if columns is None else columns
-                chosen = [_place(heads, names, column, len(cells)) for column in listed]
+                wanted = range(len(cells)) if columns is None else columns
+                chosen = [_place(heads, names, column, len(cells)) for column in wanted]
                 rows = _Rows(separator, len(cells), chosen, columns is None, indented)
             if stripped[0] not in "#%!":
                 # The first cell of a line may be empty, where tabs separate them.
-                kept.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
+                raw.append(stripped if rows.indented else text.strip(" \r\n\v\f\ufeff"))
                 at.append(line)
         if rows is None:
             length += sum(map(len, texts))
             if length > _core.LONGEST_FILE:
                 break
-        elif kept:
-            part, found = rows.numbers(kept, at)
+        elif raw:
+            part, parsed = rows.numbers(raw, at)
             parts.append(part)
-            places.append(np.array(found, dtype=np.int64))
+            places.append(np.array(parsed, dtype=np.int64))
             count += len(part)
             if count * len(rows.places) > inputs.MOST_NUMBERS:
                 fault = f"has more than {inputs.MOST_NUMBERS} numbers"
@@ -162,14 +162,16 @@ def _pieces(file: Path, sheet: str | None) -> Iterator[list[str]]:
     if sheet is not None:
         raise inputs.rejected("sheet", sheet, "text files have none; leave it out")
     with file.open("rb") as opened:
-        piece = opened.read(PIECE)
+        piece = opened.read(PIECE_BYTES)
         decoder, rest = codecs.getincrementaldecoder(_encoding(piece))("replace"), ""
         while piece:
             *lines, rest = _LINE.split(rest + decoder.decode(piece))
-            if len(rest) > PIECE:
-                raise inputs.faulty("path", f"has a line of more than {PIECE} characters", HINT)
+            if len(rest) > PIECE_BYTES:
+                raise inputs.faulty(
+                    "path", f"has a line of more than {PIECE_BYTES} characters", FILE_HINT
+                )
             yield lines
-            piece = opened.read(PIECE)
+            piece = opened.read(PIECE_BYTES)
         yield _LINE.split(rest + decoder.decode(b"", final=True))
 
 
@@ -206,7 +208,7 @@ def _sheet(file: Path, name: str | None) -> Iterator[list[str]]:
         except (*broken, TypeError, AttributeError, SyntaxError) as error:
             fault = f"cannot be read as a spreadsheet ({inputs.reason(error)})"
             raise inputs.faulty("path", fault, "save it as .xlsx again, or as .csv") from None
-        titles = [each.title for each in book.worksheets]
+        titles = [sheet.title for sheet in book.worksheets]
         if not titles:
             raise inputs.faulty("path", "has no sheet of cells", "save it as .csv")
         chosen = titles[0] if name is None else inputs.one_of("sheet", name, titles)
@@ -250,18 +252,18 @@ class _Rows:
         if self._are_plain(rows):
             comma = self.mark == ","
             with contextlib.suppress(ValueError):
-                found = np.loadtxt(
+                parsed = np.loadtxt(
                     [row.replace(",", ".") for row in rows] if comma else rows,
                     delimiter=self.separator, usecols=self.places, ndmin=2, comments=None,
                     quotechar='"',
                 )  # fmt: skip
-                needed = found[:, :2] if self.every else found
-                if len(found) == len(rows) and np.isfinite(needed).all():
-                    return found, lines
+                needed = parsed[:, :2] if self.every else parsed
+                if len(parsed) == len(rows) and np.isfinite(needed).all():
+                    return parsed, lines
         read = [self._row(row, line) for row, line in zip(rows, lines, strict=True)]
-        kept = [k for k, each in enumerate(read) if each is not None]
-        numbers = np.array([read[k] for k in kept], dtype=np.float64)
-        return numbers.reshape(-1, len(self.places)), [lines[k] for k in kept]
+        places = [k for k, row in enumerate(read) if row is not None]
+        numbers = np.array([read[k] for k in places], dtype=np.float64)
+        return numbers.reshape(-1, len(self.places)), [lines[k] for k in places]
 
     def _are_plain(self, rows: list[str]) -> bool:
         """Return whether lines have no cell too many and one decimal mark, which is noted."""
@@ -294,7 +296,7 @@ class _Rows:
         cell = cells[place] if place < len(cells) else ""
         at = f"column {place} of line {line}, {inputs.shorten(' '.join(cells))}"
         if _NUMBER.fullmatch(cell):
-            if mark := next((each for each in ".," if each in cell), ""):
+            if mark := next((sign for sign in ".," if sign in cell), ""):
                 if self.mark not in ("", mark):
                     fault = f"has decimal points and commas: {inputs.shorten(cell)} in {at}"
                     raise inputs.faulty("path", fault, "write one of them in all lines")
@@ -351,14 +353,14 @@ def _place(header: list[str], names: list[str], column: object, width: int) -> i
         return place
     for plain in (str, _bare):
         for heads in (header, names):
-            found = [k for k, head in enumerate(heads) if plain(head) == plain(column)]
-            if len(found) == 1 or (found and plain is str):
-                return found[0]
-            if found:
-                listed = ", ".join(repr(heads[k]) for k in found[:FIRST_WORDS])
-                raise inputs.rejected("columns", column, f"there are {listed}; give one in full")
-    listed = ", ".join(map(repr, (names or header)[:FIRST_WORDS])) or "none"
-    raise inputs.rejected("columns", column, f"there is none; the file has {listed}")
+            places = [k for k, head in enumerate(heads) if plain(head) == plain(column)]
+            if len(places) == 1 or (places and plain is str):
+                return places[0]
+            if places:
+                choices = ", ".join(repr(heads[k]) for k in places[:FIRST_WORDS])
+                raise inputs.rejected("columns", column, f"there are {choices}; give one in full")
+    choices = ", ".join(map(repr, (names or header)[:FIRST_WORDS])) or "none"
+    raise inputs.rejected("columns", column, f"there is none; the file has {choices}")
 
 
 def _bare(head: str) -> str:

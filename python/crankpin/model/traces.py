@@ -40,8 +40,6 @@ OFFSET = (
     "no absolute pressure is below zero. If the sensor's offset is in it, crankpin.prepare_trace "
     "removes it"
 )
-OF_A_NORMAL = 1.482602
-"""Standard deviation over median magnitude of normally distributed numbers."""
 
 
 class Traces(Tabled, Input):
@@ -197,7 +195,7 @@ class Traces(Tabled, Input):
 
         """
         read = cycle_files.load_cylinders(path, columns, tdc_deg, **options)
-        return tuple(cls(*each[:5]) for each in read)
+        return tuple(cls(*fields[:5]) for fields in read)
 
     def __len__(self) -> int:
         return len(self.pressure)
@@ -216,7 +214,7 @@ class Traces(Tabled, Input):
         self._check_offset()
         return self._cycle(self.pressure[index])
 
-    def without(self, cycles: int | Iterable[int]) -> Self:
+    def without_cycles(self, cycles: int | Iterable[int]) -> Self:
         """Return the other cycles.
 
         Parameters
@@ -240,20 +238,20 @@ class Traces(Tabled, Input):
         >>> import numpy as np
         >>> theta = np.arange(-360.0, 360.0)
         >>> traces = cp.Traces(theta, np.tile(cp.Cycle.example().pressure_at(theta), (5, 1)))
-        >>> len(traces.without([0, 3])), len(traces[:2])
+        >>> len(traces.without_cycles([0, 3])), len(traces[:2])
         (3, 2)
         """
         several = not isinstance(cycles, (int, np.integer)) or isinstance(cycles, bool)
-        listed = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
-        out = [item_key(each, len(self), "cycles") for each in listed]
+        entries = inputs.items("cycles", cycles, "give indices of cycles") if several else [cycles]
+        out = [item_key(key, len(self), "cycles") for key in entries]
         return self._some(np.delete(np.arange(len(self)), out), "cycles", cycles)
 
-    def _some(self, kept: NDArray[np.intp], argument: str, value: object) -> Self:
+    def _some(self, places: NDArray[np.intp], argument: str, value: object) -> Self:
         """Return some of the cycles."""
-        if not len(kept):
+        if not len(places):
             raise inputs.rejected(argument, value, "one cycle must stay")
         with suppressed():  # Warned of where all were given.
-            return self.replace(pressure=self.pressure[kept])
+            return self.replace(pressure=self.pressure[places])
 
     @functools.cached_property
     def _oddities(self) -> Oddities:
@@ -269,14 +267,19 @@ class Traces(Tabled, Input):
         cycles large spikes alone are found.
         """
         rows = [
-            (each.cycle, each.kind, None if math.isnan(each.at_deg) else each.at_deg, each.size)
-            for each in self._oddities.listed
+            (
+                oddity.cycle,
+                oddity.kind,
+                None if math.isnan(oddity.at_deg) else oddity.at_deg,
+                oddity.size,
+            )
+            for oddity in self._oddities.listed
         ]
         heads: list[str | tuple[str, str]] = ["cycle", "kind", ("crank angle", "°"), "size"]
-        row_units = tuple(each.unit for each in self._oddities.listed)
-        found = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
+        row_units = tuple(oddity.unit for oddity in self._oddities.listed)
+        table = Table.from_rows(f"{self._title}: spikes and odd cycles", heads, rows)
         unit = Column("unit", row_units or ())
-        return changed(found, columns=(*found.columns, unit), row_units=row_units)
+        return changed(table, columns=(*table.columns, unit), row_units=row_units)
 
     def __iter__(self) -> Iterator[Cycle]:
         """Return an iterator over the cycles."""
@@ -326,10 +329,10 @@ class Traces(Tabled, Input):
         so that a few steep angles do not.
         """
         # By cycle, so that Ctrl-C is answered between them.
-        differences = np.array([np.abs(np.diff(each, 4)) for each in self.pressure])
+        differences = np.array([np.abs(np.diff(trace, 4)) for trace in self.pressure])
         if not differences.size:
             return 0.0
-        return float(OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
+        return float(odd_cycles.OF_A_NORMAL * np.median(differences) / math.sqrt(OF_WHITE_NOISE))
 
     @functools.cached_property
     def peaks(self) -> NDArray[np.float64]:
@@ -358,7 +361,7 @@ class Traces(Tabled, Input):
 
         """
         with suppressed():  # a single cycle may be far from the others
-            return np.array([each.imep(cylinder) for each in self._raised_cycles()])
+            return np.array([cycle.imep(cylinder) for cycle in self._raised_cycles()])
 
     @documented(imep)
     def cov(self, cylinder: Cylinder) -> float:
@@ -385,15 +388,15 @@ class Traces(Tabled, Input):
             Peak phasors, N·m. Their mean is that of the mean cycle.
 
         """
-        listed = inputs.explicit_half_orders(orders)
+        chosen = inputs.explicit_half_orders(orders)
         below = inputs.number("crankcase", crankcase)
         checks.absolute("crankcase", below)
         with suppressed("crankcase ="):
-            found = [
-                each.torque_harmonics(cylinder, listed, crankcase=below + self._raised)
-                for each in self._raised_cycles()
+            phasors = [
+                cycle.torque_harmonics(cylinder, chosen, crankcase=below + self._raised)
+                for cycle in self._raised_cycles()
             ]
-        return np.array(found)
+        return np.array(phasors)
 
     @documented(torque_harmonics)
     def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
@@ -412,35 +415,42 @@ class Traces(Tabled, Input):
             phases included; over the root of the number of cycles it is the mean's standard error.
 
         """
-        listed = inputs.explicit_half_orders(orders)
-        phasors = self.torque_harmonics(cylinder, listed)
+        chosen = inputs.explicit_half_orders(orders)
+        phasors = self.torque_harmonics(cylinder, chosen)
         figures = [
             ("peak pressure", "bar", self.peaks / 1e5),
             ("angle of peak", "°", self.peaks_deg),
             ("imep", "bar", self.imep(cylinder) / 1e5),
         ]
         rows = [
-            (name, unit, float(each.mean()), _deviation(each), float(each.min()), float(each.max()))
-            for name, unit, each in figures
+            (
+                name,
+                unit,
+                float(values.mean()),
+                _deviation(values),
+                float(values.min()),
+                float(values.max()),
+            )
+            for name, unit, values in figures
         ]
-        for order, each in zip(listed, phasors.T, strict=True):
-            sizes = np.abs(each)
-            mean = float(abs(each.mean()))
+        for order, phasor in zip(chosen, phasors.T, strict=True):
+            sizes = np.abs(phasor)
+            mean = float(abs(phasor.mean()))
             extremes = float(sizes.min()), float(sizes.max())
-            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(each), *extremes))
+            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(phasor), *extremes))
         of_mean = [
             100.0 * row[3] / abs(row[2]) if row[2] and row[1] != "°" else None for row in rows
         ]
         names, row_units, *columns = zip(*rows, strict=True)
         heads = ("mean", "deviation", "least", "largest")
-        shown = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
+        numbers = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
         return Table(
             f"{self._title}, spread",
             (
                 Column("figure", names),
-                *shown[:2],
+                *numbers[:2],
                 Column("COV", tuple(of_mean), "%", digits=3),
-                *shown[2:],
+                *numbers[2:],
                 Column("unit", row_units),
             ),
             row_units=row_units,
@@ -467,10 +477,10 @@ class Traces(Tabled, Input):
         InputError
             If half of the points are fewer than a table has.
         """
-        listed = inputs.explicit_half_orders(orders)
-        between = self._raised_mean.resolution_error(cylinder, listed, crankcase=crankcase)
-        phasors = self.torque_harmonics(cylinder, listed, crankcase=crankcase)
-        over_cycles = [_deviation(each) / math.sqrt(len(self)) for each in phasors.T]
+        chosen = inputs.explicit_half_orders(orders)
+        between = self._raised_mean.resolution_error(cylinder, chosen, crankcase=crankcase)
+        phasors = self.torque_harmonics(cylinder, chosen, crankcase=crankcase)
+        over_cycles = [_deviation(phasor) / math.sqrt(len(self)) for phasor in phasors.T]
         return np.hypot(between, over_cycles)
 
     @property
@@ -498,7 +508,7 @@ class Traces(Tabled, Input):
             ),
             (
                 Column("crank angle", self.theta_deg, "°", digits=10),
-                *(Column(k, each, "Pa", digits=7) for k, each in curves.items()),
+                *(Column(k, values, "Pa", digits=7) for k, values in curves.items()),
             ),
             note=self.origin,
         )

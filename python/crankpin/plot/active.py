@@ -57,9 +57,9 @@ def _cancellation(result: Cancellation, ax: Axes | None = None, **style: object)
         return ax
     rows = np.arange(len(places))
     for k, look in zip(range(2), series(ax, 2, style), strict=True):
-        own = np.array([(k == 0) == (row < len(result.receivers)) for row in rows])
+        is_target = np.array([(k == 0) == (row < len(result.receivers)) for row in rows])
         bars = {"color": look["color"], "label": ("minimised", "elsewhere")[k]}
-        ax.barh(rows[own], np.array(ratios)[own], 0.7, gid=SERIES, **bars)
+        ax.barh(rows[is_target], np.array(ratios)[is_target], 0.7, gid=SERIES, **bars)
     ax.axvline(1.0, label=UNCHANGED, **line)
     numeric(ax.xaxis)
     largest = float(np.nanmax([1.0, *ratios]))

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.by_order import OrderBalance
 
 
-BESIDE = 6.0
+STEM_DISTANCE = 6.0
 """Points between stems of the same order."""
 ZEROS = "crankpin zeros"
 """Marks the hollow circles of a series by their gid."""
@@ -81,7 +81,7 @@ def spectrum(
     peaks = (
         result.read(name, "peak_xy")
         if name in PLANE_VECTORS
-        else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
+        else np.stack([result.read(quantity, "peak") for quantity in drawn], axis=-1)
     )
     orders, note = np.array(result.orders, dtype=np.float64), ""
     orders_given = result._request.orders is not None
@@ -118,9 +118,9 @@ def stems(
     look |= style | {"markevery": slice(1, None, 3)}
     (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **look)
     zeros = orders[peaks == 0.0]
-    known = ZERO in ax.get_legend_handles_labels()[1]
+    has_zero = ZERO in ax.get_legend_handles_labels()[1]
     look = {"markersize": 5.0, "transform": ax.get_xaxis_transform(), "gid": ZEROS}
-    name = ZERO if zeros.size and not known else ""
+    name = ZERO if zeros.size and not has_zero else ""
     hollow(ax, zeros, np.zeros_like(zeros), line.get_color(), label=name, **look)
 
 
@@ -136,7 +136,7 @@ def beside_each_other(ax: Axes) -> None:
         return
     gap = np.diff(orders, prepend=0.0).min() / orders[-1]
     width = 72.0 * ax.get_window_extent().width / figure.dpi
-    beside = min(BESIDE, 0.9 * gap * width / len(pairs))
+    beside = min(STEM_DISTANCE, 0.9 * gap * width / len(pairs))
     for k, (line, zeros) in enumerate(pairs):
         points = beside * (k - 0.5 * (len(pairs) - 1))
         shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
@@ -164,7 +164,7 @@ def scale_spectrum(ax: Axes, *, logarithmic: bool, orders_given: bool) -> None:
 
 # --- ellipses ------------------------------------------------------------------------------------
 
-PHASES = np.linspace(0.0, 2.0 * np.pi, 181)
+PHASES_OF_ELLIPSE = np.linspace(0.0, 2.0 * np.pi, 181)
 
 
 def ellipses(
@@ -178,26 +178,26 @@ def ellipses(
     """Draw a panel for each of the largest orders, or all of them on given axes."""
     name = plane_vector(quantity, result)
     places, note = largest(result, name)
-    shown = [result.orders[place] for place in places]
+    orders = [result.orders[place] for place in places]
     where = joined(QUANTITIES[name].words, f"{number(result.rpm)} rpm", loads_of(result, name))
     if ax is not None:
         ax = axes_or_new(ax)
         set_title(ax, labels.name_of(result.engine), where, note)
-        for order, look in zip(shown, series(ax, len(shown), style), strict=True):
+        for order, look in zip(orders, series(ax, len(orders), style), strict=True):
             curve = result[order]
             ellipse(ax, curve, name, f"order {order}: {direction(curve, name)}", look)
         scale_plane(ax)
         label_plane(ax, name)
         add_legend(ax)
         return ax
-    grid = make_plane_panels(figure, len(shown))
+    grid = make_plane_panels(figure, len(orders))
     panels = grid.axes.ravel()
-    for panel, order in zip(panels, shown, strict=False):
+    for panel, order in zip(panels, orders, strict=False):
         curve = result[order]
         ellipse(panel, curve, name, "", series(panel, 1, style)[0])
         set_panel_title(panel, f"order {order}", direction(curve, name))
         scale_plane(panel)
-    if not shown:
+    if not orders:
         scale_plane(panels[0])
     along_x, along_y = QUANTITIES[name].components
     label_panels(grid, along_x, along_y, QUANTITIES[name].unit)
@@ -211,12 +211,12 @@ def ellipse(
 ) -> NDArray[np.complex128]:
     """Draw one ellipse, a dot where it is at θ = 0, and an arrow from there; return the curve."""
     vector = getattr(order, name)
-    curve: NDArray[np.complex128] = vector.forward * np.exp(1j * PHASES)
-    curve = curve + vector.backward * np.exp(-1j * PHASES)
+    curve: NDArray[np.complex128] = vector.forward * np.exp(1j * PHASES_OF_ELLIPSE)
+    curve = curve + vector.backward * np.exp(-1j * PHASES_OF_ELLIPSE)
     (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text or "_", **style)
     ax.plot(curve.real[:1], curve.imag[:1], "o", color=line.get_color(), gid="crankpin start")
     if vector.minor != 0.0:
-        arrow_at(ax, curve, len(PHASES) // 8, line.get_color())
+        arrow_at(ax, curve, len(PHASES_OF_ELLIPSE) // 8, line.get_color())
     return curve
 
 
@@ -225,13 +225,13 @@ def direction(order: OrderBalance, name: str) -> str:
     minor = getattr(order, name).minor
     if minor == 0.0:
         return "straight line"
-    return labels.TURNING["forward" if minor > 0.0 else "backward"]
+    return labels.TURNING_WORDS["forward" if minor > 0.0 else "backward"]
 
 
 # --- balance -------------------------------------------------------------------------------------
 
 
-KINDS: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
+DRAWN_BY_KIND: Kinds = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
 
 @picture.register(Balance)
@@ -276,4 +276,4 @@ def _balance(
     (2, 2)
     """
     options = {"quantity": quantity, "orders": orders, "log": log, "label": label}
-    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)
+    return draw_kind(DRAWN_BY_KIND, kind, result, ax, figure, **options, **style)

@@ -84,18 +84,18 @@ def _balance_shafts(
         Passed on to the markers; ``label`` names the result in a legend.
     """
     every = result.parts()
-    shaken = {each.quantity for each in every if max(each.before, each.after) > 0.0}
+    shaken = {part.quantity for part in every if max(part.before, part.after) > 0.0}
     name = drawn_quantity(quantity, shaken.__contains__, SHAKEN)
     ax = axes_or_new(ax)
-    parts = [each for each in every if each.quantity == name]
+    parts = [part for part in every if part.quantity == name]
     before, after = (
-        np.array([getattr(each, when) for each in parts]) for when in ("before", "after")
+        np.array([getattr(part, when) for part in parts]) for when in ("before", "after")
     )
     set_title(ax, labels.name_of(result.engine), "with and without balance shafts")
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
-    rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
+    rows = rows_for(ax, [f"order {part.order} {part.part}".rstrip() for part in parts])
     ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
     # What does not change is a dot in a ring.
     for values, text, size in ((before, "without shafts", 9.0), (after, "with shafts", 4.5)):
@@ -114,7 +114,7 @@ def _balance_shafts(
 
 # --- balancers -----------------------------------------------------------------------------------
 
-MOST_SETS = 24
+MOST_SETS_DRAWN = 24
 """Largest number of sets shown below each other, those with the fewest shafts."""
 TARGET = "crankpin target"
 """Marks the lines at the targets by their gid."""
@@ -137,9 +137,9 @@ def _balancers(
     ax = axes_or_new(ax)
     alone = not count_series(ax)
     room = _room(ax)
-    most = max(1, min(MOST_SETS, int(room / SMALLEST)) - len(names_there(ax)))
-    shown = result.pareto_front[:most]
-    left_out = len(result.pareto_front) - len(shown)
+    most = max(1, min(MOST_SETS_DRAWN, int(room / SMALLEST)) - len(names_there(ax)))
+    options = result.pareto_front[:most]
+    left_out = len(result.pareto_front) - len(options)
     set_title(
         ax,
         labels.name_of(result.engine),
@@ -148,15 +148,17 @@ def _balancers(
     if label is None and not alone:
         label = labels.name_of(result.engine)
     start = np.array(result[0].values)
-    parts = np.array([each.values for each in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
+    parts = (
+        np.array([option.values for option in options]) / np.where(start > 0.0, start, 1.0) * 100.0
+    )
     drawn = [k for k, value in enumerate(start) if value > 0.0]
     wide_enough(ax, max(100.0, float(parts[:, drawn].max(initial=0.0))))
-    rows = rows_for(ax, [_short(each.name) for each in shown])
+    rows = rows_for(ax, [_short(option.name) for option in options])
     usual = font_of("ytick.labelsize", "medium").get_size_in_points()
     size = max(SMALLEST, min(usual, room / len(ax.get_yticks())))
     ax.tick_params(axis="y", labelsize=size)
     limits = dict(result.targets)
-    reached = np.array([each.reaches for each in shown])
+    reached = np.array([option.reaches for option in options])
     for k in drawn:
         name = result.by[k]
         (look,) = series(ax, 1, style)
@@ -172,7 +174,7 @@ def _balancers(
         if reached.any():
             ring(ax, parts[reached, k], rows[reached], foreground(ax), "o", REACHED)
     if alone:
-        _write_amounts(ax, rows, shown, size)
+        _write_amounts(ax, rows, options, size)
     else:  # amounts of several engines would share a row
         for child in ax.child_axes:
             child.set_visible(False)
@@ -192,14 +194,14 @@ def _room(ax: Axes) -> float:
 
 
 def _write_amounts(
-    ax: Axes, rows: NDArray[np.intp], shown: Sequence[BalancerOption], size: float
+    ax: Axes, rows: NDArray[np.intp], options: Sequence[BalancerOption], size: float
 ) -> None:
     """Write the unbalance of each set on the right."""
     amounts = ax.secondary_yaxis("right")
     unit, factor = units.convert("kg·m")
     if factor == 1.0:
         unit, factor = "g·m", 1000.0
-    texts = [rounded(factor * each.unbalance) for each in shown]
+    texts = [rounded(factor * option.unbalance) for option in options]
     amounts.set_yticks(rows, texts, fontsize=size)
     amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
     amounts.set_ylabel(f"unbalance, {unit}", color=muted(ax))
@@ -221,7 +223,7 @@ def _short(name: str) -> str:
 
 # --- bob weight ----------------------------------------------------------------------------------
 
-POINTS = 201
+ELLIPSE_POINTS = 201
 
 
 @picture.register(BobWeight)
@@ -250,9 +252,9 @@ def _bob_weight(
     end = max(1.0, result.factor, *(factor for factor, _ in lines))
     # Both half axes have corners at these factors.
     corners = [factor for factor, _ in lines] + [result.optimal_factor(name) or 0.0, result.factor]
-    factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
+    factors = np.unique([*np.linspace(0.0, end, ELLIPSE_POINTS), *corners])
     longest, shortest = result.half_axes(name, factors)
-    own = result.half_axes(name, result.factor)
+    axes_of = result.half_axes(name, result.factor)
     set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
     curves = {"longest": longest, "shortest": np.abs(shortest)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
@@ -265,7 +267,7 @@ def _bob_weight(
     drawn = [line.get_ydata() for line in ax.lines if line.get_gid() == SERIES]
     from_zero(ax, max(float(np.max(values)) for values in drawn))
     x = np.array([result.factor, result.factor])
-    ring(ax, x, np.abs(own), foreground(ax), "o", "this factor")
+    ring(ax, x, np.abs(axes_of), foreground(ax), "o", "this factor")
     if lines:
         x = np.array([factor for factor, _ in lines])
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
-from crankpin.analysis.bearings import PARTS, BearingLoads
+from crankpin.analysis.bearings import CUT_PARTS, BearingLoads
 from crankpin.plot.layout import (
     Drawn,
     Kinds,
@@ -129,18 +129,18 @@ def bending(
     **style: object,
 ) -> Axes:
     """Draw the largest bending moments along z, of each crank, with the main bearings."""
-    parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
+    parts = CUT_PARTS if part is None else (inputs.one_of("part", part, CUT_PARTS),)
     cranks = sorted(set(result.main_crank.tolist()))
-    cuts = [(each, k) for each in parts for k in (cranks if each == "crank" else cranks[:1])]
+    cuts = [(kind, k) for kind in parts for k in (cranks if kind == "crank" else cranks[:1])]
     reject_figure(figure, "bending")
     ax = axes_or_new(ax)
     first = not count_series(ax)
     what = f"largest bending moment at {len(result.theta_deg)} crank angles"
     set_title(ax, *_titles(result, what))
-    for (each, k), look in zip(cuts, series(ax, len(cuts), style), strict=True):
-        moments = result.bending(each, crank=k)
+    for (kind, k), look in zip(cuts, series(ax, len(cuts), style), strict=True):
+        moments = result.bending(kind, crank=k)
         largest = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
-        cut = f"crank {k}" if each == "crank" and len(cranks) > 1 else each
+        cut = f"crank {k}" if kind == "crank" and len(cranks) > 1 else kind
         name = ", ".join(filter(None, [label, cut if label is None or len(cuts) > 1 else ""]))
         ax.plot(result.z, largest, gid=SERIES, label=name, **look)
     ends = [float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES]
@@ -170,10 +170,10 @@ def _places(numbers: Iterable[int] | None, count: int) -> list[int]:
     if numbers is None:
         return list(range(count))
     hint = f"give whole numbers from 1 to {count}"
-    listed = [inputs.whole("numbers", each) for each in inputs.items("numbers", numbers, hint)]
-    if not listed or not all(1 <= each <= count for each in listed):
-        raise inputs.rejected("numbers", listed, hint)
-    return [each - 1 for each in listed]
+    chosen = [inputs.whole("numbers", number) for number in inputs.items("numbers", numbers, hint)]
+    if not chosen or not all(1 <= number <= count for number in chosen):
+        raise inputs.rejected("numbers", chosen, hint)
+    return [number - 1 for number in chosen]
 
 
 def _names(load: str, places: list[int], label: str | None) -> list[str]:
@@ -184,7 +184,7 @@ def _names(load: str, places: list[int], label: str | None) -> list[str]:
     return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
 
 
-KINDS: Kinds = {"polar": polar, "curves": curves, "bending": bending}
+LOAD_PICTURES: Kinds = {"polar": polar, "curves": curves, "bending": bending}
 
 
 @picture.register(BearingLoads)
@@ -233,4 +233,4 @@ def _bearings(
     >>> ax = loads.plot(kind="bending", part="crankcase")
     """
     options = {"load": load, "numbers": numbers, "axes": axes, "part": part, "label": label}
-    return draw_kind(KINDS, kind, result, ax, figure, **options, **style)
+    return draw_kind(LOAD_PICTURES, kind, result, ax, figure, **options, **style)

@@ -31,13 +31,13 @@ from crankpin.plot.words import drawn_quantity, loads_of, nonzero_in, number, ro
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH = 0.36
+BAR_WIDTH = 0.36
 """Width of a bar, as a part of the least distance between orders."""
 SIDE_BY_SIDE = 5.0
 """Inches that two panels beside each other need."""
-LINE = 8.0
+UPRIGHT_LINE = 8.0
 """Points that a line of upright text needs."""
-TWO_TURNS = np.arange(721.0)
+ANGLES_OF_TWO_TURNS = np.arange(721.0)
 
 
 @picture.register(Comparison)
@@ -87,12 +87,12 @@ def _comparison(
 
 def _total(result: Comparison, name: str) -> str:
     """Return what becomes of all orders together."""
-    before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
+    before, after = (getattr(balance.total, name).peak for balance in (result.before, result.after))
     kind = QUANTITIES[name]
     what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
-    shown = units.convert(kind.unit)
-    sizes = (rounded(each * shown.factor, 4) for each in (before, after))
-    values = f"{' → '.join(sizes)} {shown.unit}"
+    converted = units.convert(kind.unit)
+    sizes = (rounded(value * converted.factor, 4) for value in (before, after))
+    values = f"{' → '.join(sizes)} {converted.unit}"
     return f"{what} {values} ({changed(before, after)})"
 
 
@@ -113,30 +113,30 @@ def changed(before: float, after: float) -> str:
 
 def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> None:
     """Draw a pair of bars for each order, and above it how it changes."""
-    pairs = np.array([getattr(each, name).peak for each in (result.before, result.after)])
+    pairs = np.array([getattr(balance, name).peak for balance in (result.before, result.after)])
     top = float(pairs.max(initial=0.0))
-    shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
-    orders = np.array(result.orders, dtype=np.float64)[shown]
-    width = WIDTH * float(np.diff(orders).min(initial=1.0))
+    places = [k for k in range(len(result.orders)) if pairs[:, k].max() > labels.MATTERS * top]
+    orders = np.array(result.orders, dtype=np.float64)[places]
+    width = BAR_WIDTH * float(np.diff(orders).min(initial=1.0))
     looks = series(ax, 2)
     hatches = ("////", None)  # for print without colour
-    for k, (peaks, text) in enumerate(zip(pairs[:, shown], result.names, strict=True)):
+    for k, (peaks, text) in enumerate(zip(pairs[:, places], result.names, strict=True)):
         fill = {
             "color": looks[k]["color"], "hatch": hatches[k], "edgecolor": background(ax),
             "linewidth": 0.0,
         }  # fmt: skip
         ax.bar(orders + (k - 0.5) * width, peaks, 0.96 * width, label=text, **(fill | style))
-    if not shown:
+    if not places:
         note_zero(ax)
     last = float(orders.max(initial=0.0)) + 1.0
-    texts = [changed(*pairs[:, k].tolist()) for k in shown]
+    texts = [changed(*pairs[:, k].tolist()) for k in places]
     widths = [points_of(ax, text, FontProperties(size="x-small")) for text in texts]
     # The layout will take a part of the axes for labels.
     apart = float(np.diff(orders).min(initial=last)) / last
     upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
-    if 72.0 * inches_of(ax) * apart < LINE:
+    if 72.0 * inches_of(ax) * apart < UPRIGHT_LINE:
         texts = [""] * len(texts)
-    for order, k, text in zip(orders.tolist(), shown, texts, strict=True):
+    for order, k, text in zip(orders.tolist(), places, texts, strict=True):
         look = {"va": "bottom", "fontsize": "x-small", "rotation": 90.0 if upright else 0.0}
         write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
     ax.set_xlim(0.0, last)
@@ -152,7 +152,7 @@ def _curves(ax: Axes, result: Comparison, name: str) -> None:
     both, planar = (result.before, result.after), name in PLANE_VECTORS
     # Pressure repeats with the cycle; what is left, and all forces, with the turn.
     cycle = not planar and any(b.fired and b.engine.strokes == 4 for b in both)
-    theta = TWO_TURNS if cycle else TWO_TURNS[:361]
+    theta = ANGLES_OF_TWO_TURNS if cycle else ANGLES_OF_TWO_TURNS[:361]
     for balance, label in zip(both, result.names, strict=True):
         waveform = Waveform(balance.engine, balance.rpm, theta, True, balance._request)
         if planar:

@@ -41,11 +41,11 @@ if TYPE_CHECKING:
 
 NEEDLE = 0.2
 """Length of an arrow, inches; in low axes less."""
-PINS = -0.3
+PINS_HEIGHT = -0.3
 """Height of the row of crankpins, in largest weights."""
-NARROWEST = 2.4
+NARROWEST_PICTURE = 2.4
 """Inches of width below which panels stand below each other."""
-KINDS = ("summary", "weights", "ellipses")
+PICTURE_KINDS = ("summary", "weights", "ellipses")
 
 
 @picture.register(Counterweights)
@@ -75,7 +75,7 @@ def _counterweights(
     **style : dict, optional
         ``label`` and properties of matplotlib lines.
     """
-    chosen = inputs.one_of("kind", kind, KINDS)
+    chosen = inputs.one_of("kind", kind, PICTURE_KINDS)
     exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
     name = drawn_quantity(quantity, exists, PLANE_VECTORS)
     if chosen == "summary" and ax is None:
@@ -99,17 +99,17 @@ def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> D
         hint = 'kind="summary" shows one result; give kind="weights" and ax'
         raise inputs.rejected("label", style["label"], hint)
     before = over_square(result.engine, [1])[1]
-    shown = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
-    shown += ["moment"] if not shown else []
-    count = 1 + len(shown)
-    beside = width_for(figure) >= NARROWEST * count
+    vectors = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
+    vectors += ["moment"] if not vectors else []
+    count = 1 + len(vectors)
+    beside = width_for(figure) >= NARROWEST_PICTURE * count
     grid = make_panels(
         None, figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
     )
     panels = grid.axes.ravel()
     set_panel_title(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
-    for panel, name in zip(panels[1:], shown, strict=True):
+    for panel, name in zip(panels[1:], vectors, strict=True):
         set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
     set_figure_title(
@@ -142,13 +142,13 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
     largest = float(tops.max(initial=0.0)) or 1.0
     pins = crankpins(result.engine)
     at = np.array([pin.z for pin in pins])
-    height = np.full(len(pins), PINS * largest)
+    height = np.full(len(pins), PINS_HEIGHT * largest)
     _needles(ax, at, height, [pin.pin_deg for pin in pins], muted(ax), "crankpin pins")
     ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1, gid="crankpin axis")
     along = np.append([z for _, z in result.places], at)
     room = 0.08 * float(np.ptp(along)) or 0.1
     ax.set_xlim(float(along.min()) - room, float(along.max()) + room)
-    ax.set_ylim(1.8 * PINS * largest, 1.25 * largest)
+    ax.set_ylim(1.8 * PINS_HEIGHT * largest, 1.25 * largest)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
     ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= 1.25 * largest])

@@ -50,17 +50,17 @@ if TYPE_CHECKING:
     from crankpin.analysis.geometry import Weight
     from crankpin.model.engine import Engine
 
-PINS = "crankpin pins"
+PIN_MARKS = "crankpin pins"
 """Marks the main journal, then the crankpins."""
 UNBALANCES = "crankpin unbalances"
 """Marks the discs of rotating masses in the star, then the sectors of counterweights."""
-LINE = 1.3
+LINE_HEIGHT = 1.3
 """Height of a line of text over the size of its font."""
 AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
-LOADS = "crankpin loads"
+LOAD_MARKS = "crankpin loads"
 """Marks the places of periodic loads in the side view."""
 MOST_LOADS = 8
 """Places of loads that have their names."""
@@ -91,23 +91,23 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     ink = inks_of(ax)
     largest = crank_radius(engine)
     half = 0.65 * JOURNAL * largest
-    shown = cranks_with_parts(engine)
-    pins = {crank: pins_in_line(engine, theta_deg, crank) for crank in shown}
+    cranks = cranks_with_parts(engine)
+    pins = {crank: pins_in_line(engine, theta_deg, crank) for crank in cranks}
     masses, weights = rotating_masses(engine, theta_deg), weights_on_crank(engine, theta_deg)
     rotating, balancing = (
         [
-            (crank, *each)
-            for crank in shown
-            for each in by_direction(one for one in kind if one.crank == crank).items()
+            (crank, *group)
+            for crank in cranks
+            for group in by_direction(one for one in kind if one.crank == crank).items()
         ]
         for kind in (masses, weights)
     )
     radii = radius_of_amounts(engine, [amount for *_, amount in [*rotating, *balancing]])
     # Rotating masses are round and at their pins, so that they do not look like counterweights.
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
-    reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + each for each in rounds)])
+    reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + radius for radius in rounds)])
     limit = 1.25 * reach
-    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(shown)}
+    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(cranks)}
     sectors = [
         *(
             disc(centres[crank] + largest * at, radius)
@@ -121,16 +121,16 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     faces = [ink.journal] * len(rotating) + [ink.weight] * len(balancing)
     add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
     looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    places = [(centres[crank], centres[crank] + at) for crank in shown for at in pins[crank]]
+    places = [(centres[crank], centres[crank] + at) for crank in cranks for at in pins[crank]]
     add(ax, [bar(axis, at, 2.6 * half, 1.3 * half) for axis, at in places], **(looks | style))
     journals = [
         *(disc(centre, 1.5 * half) for centre in centres.values()),
         *(disc(at, half) for _, at in places),
     ]
     faces = [ink.paper] * len(centres) + [ink.journal] * len(places)
-    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
+    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PIN_MARKS)
     # The layout may make the axes smaller yet.
-    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(shown))
+    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(cranks))
     for crank, centre in centres.items():
         circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
         ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
@@ -138,12 +138,12 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         arrow_round(ax, largest, gap, ink, centre, engine._core.cranks[0][crank][2])
         for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
             outside(ax, centre + reach * at, listed(cylinders), centre)
-        if len(shown) > 1:
+        if len(cranks) > 1:
             text = plain_text(crank_text(engine, crank))
             write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
     ax.set_aspect("equal")
-    ax.set_xlim(-limit, limit + 2.0 * limit * (len(shown) - 1))
-    ax.set_ylim(-limit if len(shown) == 1 else -1.3 * limit, limit)
+    ax.set_xlim(-limit, limit + 2.0 * limit * (len(cranks) - 1))
+    ax.set_ylim(-limit if len(cranks) == 1 else -1.3 * limit, limit)
     ax.set_axis_off()
 
 
@@ -152,7 +152,7 @@ def _numbers(ax: Axes, pins: dict[complex, list[int]], radius: float) -> dict[co
     font = FontProperties(size="small")
     labels = [
         (at / abs(at), cylinders)
-        for at, cylinders in sorted(pins.items(), key=lambda each: float(np.angle(each[0])))
+        for at, cylinders in sorted(pins.items(), key=lambda pin: float(np.angle(pin[0])))
     ]
 
     def place(towards: complex, cylinders: list[int]) -> Bbox:
@@ -233,7 +233,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
             low, high = min(a, b) - 1.2 * half, max(a, b) + 1.2 * half
             webs.append(_rectangle(z - 0.5 * thick, z + 0.5 * thick, low, high))
     looks = {"facecolor": ink.journal, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    add(ax, journals, gid=PINS, **looks)
+    add(ax, journals, gid=PIN_MARKS, **looks)
     add(ax, webs, **(looks | {"facecolor": ink.web} | style))
     flywheel = 1.5 * crank_radius(engine)
     wheels = [
@@ -286,7 +286,9 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     drawn = []
     for middle, throw in zip(middles, throw_list, strict=True):
         edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
-        drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
+        drawn.append(
+            [Stretch(*stretch) for stretch in zip(throw, edges[:-1], edges[1:], strict=True)]
+        )
     return drawn, pitch
 
 
@@ -303,17 +305,17 @@ def _number(
         text = text.replace(", ", "\n")
     up = 1.0 if y - line > -1e-9 * clear else -1.0
     write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
-    return 3.0 + LINE * font.get_size_in_points() * (text.count("\n") + 1)
+    return 3.0 + LINE_HEIGHT * font.get_size_in_points() * (text.count("\n") + 1)
 
 
 def _weights(
     engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float, lines: dict[int, float]
 ) -> None:
     weights = weights_on_crank(engine, theta)
-    radii = radius_of_amounts(engine, [each.amount for each in weights])
+    radii = radius_of_amounts(engine, [weight.amount for weight in weights])
     plates = [
-        _plate(each, radius, lines[each.crank], thick)
-        for each, radius in zip(weights, radii, strict=True)
+        _plate(weight, radius, lines[weight.crank], thick)
+        for weight, radius in zip(weights, radii, strict=True)
     ]
     add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=WEIGHTS)
 
@@ -322,13 +324,15 @@ def _shafts(
     engine: Engine, ax: Axes, theta: float, ink: Inks, ends: tuple[float, float], thick: float
 ) -> None:
     weights = weights_on_shafts(engine, theta)
-    radii = iter(radius_of_amounts(engine, [each.amount for shaft in weights for each in shaft]))
+    radii = iter(
+        radius_of_amounts(engine, [weight.amount for shaft in weights for weight in shaft])
+    )
     half = 0.35 * JOURNAL * crank_radius(engine)
     rods, plates = [], []
     names: dict[float, list[str]] = {}
     for shaft, carried in zip(engine.shafts, weights, strict=True):
         rods.append(_rectangle(*ends, shaft.y - half, shaft.y + half))
-        plates += [_plate(each, 0.7 * next(radii), shaft.y, thick) for each in carried]
+        plates += [_plate(weight, 0.7 * next(radii), shaft.y, thick) for weight in carried]
         names.setdefault(shaft.y, []).append(shaft_text(shaft.name, shaft.ratio))
     add(ax, rods, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=2)
     add(ax, plates, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.8, zorder=4)
@@ -353,10 +357,10 @@ def _loads(
             names.append(load.name)
     along = [*ends, *(z for z, _ in places)]
     per_metre = 0.5 * 72.0 * inches_of(ax) / (max(along) - min(along))
-    line = LINE * FontProperties(size="x-small").get_size_in_points() / per_metre
+    line = LINE_HEIGHT * FontProperties(size="x-small").get_size_in_points() / per_metre
     for k, ((z, y), names) in enumerate(sorted(places.items())):
         at = {"color": ink.line, "zorder": 6}
-        ax.plot(z, y, marker="D", markersize=5, markerfacecolor=ink.paper, gid=LOADS, **at)
+        ax.plot(z, y, marker="D", markersize=5, markerfacecolor=ink.paper, gid=LOAD_MARKS, **at)
         if k < MOST_LOADS:
             low = min(low, y) - line
             ax.plot([z, z], [y, low], linewidth=0.6, linestyle=":", **at)

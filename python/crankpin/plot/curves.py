@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 MOST_DASHES = 4
 """Number of dashes that are used beside colours of another meaning."""
-NAMED = 5
+MOST_ENGINES_NAMED = 5
 """Engines with a name in the legend where there are too many for all."""
 THIN: dict[str, Any] = {"linewidth": 0.8, "linestyle": "-"}
 
@@ -118,7 +118,7 @@ def bundle_of(
         handles.append(Line2D([], [], color=muted(ax), **THIN, label=f"each: {what}"))
     distinct = few and n_rest <= MOST_DASHES
     drawn = names if distinct else [""] * len(names)
-    curves = [Curve(*each) for each in zip(places, looks, drawn, strict=True)]
+    curves = [Curve(*row) for row in zip(places, looks, drawn, strict=True)]
     return Bundle(curves, handles, None if few else others[0])
 
 
@@ -129,12 +129,12 @@ def engine_looks(
 
     The others are thin lines below them, with one entry in the legend.
     """
-    count = len(names) if len(names) <= DISTINCT else NAMED
-    kept = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
+    count = len(names) if len(names) <= DISTINCT else MOST_ENGINES_NAMED
+    largest = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
     looks = series(ax, count, style)
-    curves = [Curve((k,), look, names[k]) for k, look in zip(kept, looks, strict=True)]
+    curves = [Curve((k,), look, names[k]) for k, look in zip(largest, looks, strict=True)]
     handles = [Line2D([], [], **curve.style, label=curve.name) for curve in curves]
-    rest = [k for k in range(len(names)) if k not in kept]
+    rest = [k for k in range(len(names)) if k not in largest]
     if rest:
         grey: dict[str, Any] = {"color": muted(ax, 0.35), "zorder": 1.9, **THIN}
         text = f"{len(rest)} others"

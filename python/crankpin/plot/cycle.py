@@ -115,7 +115,7 @@ def _band(result: Traces, ax: Axes, name: str, style: dict[str, object]) -> None
     degrees(ax.xaxis)
     span(ax, theta)
     numeric(ax.yaxis)
-    from_zero(ax, max(float(rows.max()), *(float(each) for each in ax.dataLim.intervaly)))
+    from_zero(ax, max(float(rows.max()), *(float(end) for end in ax.dataLim.intervaly)))
     label_y(ax, units.headed("absolute pressure", "bar"))
 
 
@@ -163,8 +163,8 @@ def _prepared(
         span(changes, theta)
         degrees(changes.xaxis)
         label_x(changes, "crank angle after the firing top dead centre")
-    shown = map(units.shown, result.names[1:])
-    steps = [name.partition(" (")[0].partition(": ")[0] for name in shown]
+    names = map(units.shown, result.names[1:])
+    steps = [name.partition(" (")[0].partition(": ")[0] for name in names]
     panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
     return panels.drawn
 

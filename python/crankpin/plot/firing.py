@@ -86,7 +86,7 @@ def _firing(
     if timing is not None:
         inlet_name, inlets, exhausts = _openings(result, timing)
         inlet, exhaust = (
-            blend(faces[each], foreground(ax), 0.75) for each in ("intake", "exhaust")
+            blend(faces[valve], foreground(ax), 0.75) for valve in ("intake", "exhaust")
         )
         opened = [
             Kind(f"{inlet_name} open", inlet, inlets, INLETS),
@@ -110,7 +110,7 @@ def _firing(
         overlaps = result.exhaust_overlaps(timing=timing)
         handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
     handles += _mark_firings(
-        ax, [(rows.index(each), result.angles_deg[each - 1]) for each in result.order],
+        ax, [(rows.index(number), result.angles_deg[number - 1]) for number in result.order],
         _middle(0.0, place),
     )  # fmt: skip
     _dress(ax, result, rows, row_height)
@@ -146,7 +146,9 @@ def _bars(
     **style: Any,  # noqa: ANN401 - of matplotlib
 ) -> None:
     if "color" in style:  # of faces and edges; matplotlib warns of both
-        style = {key: each for key, each in style.items() if key not in {"facecolor", "edgecolor"}}
+        style = {
+            key: value for key, value in style.items() if key not in {"facecolor", "edgecolor"}
+        }
     top, height = place
     ax.broken_barh(pieces, (row + top, height), **style)
 

@@ -32,9 +32,9 @@ LEAST_PART = 0.7
 """Part of their cell in a grid that texts take at least, however small the axes become."""
 MOST_PASSES = 4
 """Layouts of a figure after which texts and legends stay as they are; most pictures take two."""
-MOST_ROWS = 2
+MOST_LEGEND_ROWS = 2
 """Rows of a legend that is no wider than its axes."""
-GAP = 4.0
+LEGEND_GAP = 4.0
 """Points between the labels of an axis and the legend."""
 HANDLE, BETWEEN = 2.2, 1.2
 """Length of a line in a legend, and distance of its columns, in sizes of type."""
@@ -284,16 +284,16 @@ class _FittedText:
 
 def _cut(place: Axes | FigureBase, text: str, room: float, font: FontProperties) -> str:
     """Cut a line of text to some pixels, with an ellipsis."""
-    kept = text
-    while _width(place, kept, font) > room:
-        shorter = text[: len(kept) - 2]
+    short = text
+    while _width(place, short, font) > room:
+        shorter = text[: len(short) - 2]
         if not shorter:
             break
         # Words are left out whole where several remain.
         words, _, rest = shorter.rpartition(" ")
         text = words if len(words) > len(rest) else shorter
-        kept = f"{text.rstrip(' ,;:')}…"
-    return kept
+        short = f"{text.rstrip(' ,;:')}…"
+    return short
 
 
 # --- titles and labels --------------------------------------------------------------------------
@@ -308,10 +308,10 @@ def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     if before:
         lines = tuple(line for line in lines if plain_text(line) in before)
     size = font_of("axes.titlesize", "medium").get_size()
-    kept = [line for line in lines if line]
-    text = ax.set_title(plain_text("\n".join(kept)), loc="left", fontsize=size, pad=pad)
+    remaining = [line for line in lines if line]
+    text = ax.set_title(plain_text("\n".join(remaining)), loc="left", fontsize=size, pad=pad)
     short = _cell(ax, "height") < SHORT * _root(ax).dpi
-    _fit(ax, text, _FittedText(text, kept, ax, most=2 if short else None))
+    _fit(ax, text, _FittedText(text, remaining, ax, most=2 if short else None))
 
 
 def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
@@ -392,10 +392,10 @@ class _Apart:
             before = text.get_visible()
             text.set_visible(True)  # the extent of hidden texts is nothing
             box = text.get_window_extent()
-            shown = not any(box.overlaps(other) for other in boxes)
-            boxes += [box] if shown else []
-            text.set_visible(shown)
-            changed |= shown != before
+            is_free = not any(box.overlaps(other) for other in boxes)
+            boxes += [box] if is_free else []
+            text.set_visible(is_free)
+            changed |= is_free != before
         return changed
 
 
@@ -454,7 +454,7 @@ class _Legend:
             below, beside = self.place.xaxis.get_tightbbox(), self.place.yaxis.get_tightbbox()
             down = 0.0 if below is None else max(0.0, frame.y0 - below.y0) / dpi
             room = 0.0 if beside is None else max(0.0, frame.x0 - beside.x0)
-            if len(names) > MOST_ROWS * arranged["ncols"]:
+            if len(names) > MOST_LEGEND_ROWS * arranged["ncols"]:
                 # Under the labels of the vertical axis there is room too.
                 wider = self._arranged(names, across + room)
                 if wider["ncols"] > arranged["ncols"]:
@@ -473,7 +473,7 @@ class _Legend:
         if not isinstance(self.place, Axes):
             return {"loc": "outside lower left"}
         to_inches = self.place.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
-        shift = ScaledTranslation(-left, -down - GAP / 72.0, to_inches)
+        shift = ScaledTranslation(-left, -down - LEGEND_GAP / 72.0, to_inches)
         return {
             "loc": "upper left",
             "bbox_to_anchor": (0.0, 0.0),

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.analysis.sweeps.sweep import Sweep
 
-MOST_ENGINES = 4
+MOST_ENGINE_ROWS = 4
 """Engines with a row of their own."""
 DOTTED = "white dots: exactly zero"
 """Note on a map with dots."""
@@ -156,9 +156,9 @@ def _rows(
         raise inputs.faulty("ax", fault, "there is a panel for each; give figure")
     first = rows.rows[0]
     what = f", {first.name}" if first.name else ""
-    kept = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINES])]
-    rest = len(names) - len(kept)
-    return rows._replace(rows=kept), f"{rest} more engines not shown" if rest else ""
+    drawn = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINE_ROWS])]
+    rest = len(names) - len(drawn)
+    return rows._replace(rows=drawn), f"{rest} more engines not shown" if rest else ""
 
 
 def heat(

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order
     from crankpin.plot.layout import Panels
 
-THIN = 0.45
+THIN_STRENGTH = 0.45
 """Strength of the lines of many designs."""
 
 
@@ -53,7 +53,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     """
     ax = axes_or_new(ax)
     at = AT if result.powertrain._varies else None
-    pair = [each.modes(at).frequency for each in (result.powertrain, result.fitted)]
+    pair = [powertrain.modes(at).frequency for powertrain in (result.powertrain, result.fitted)]
     rows = np.arange(1, 7)
     looks = series(ax, 2, {"marker": "o", "linestyle": "", "markersize": 6.0} | style)
     link: dict[str, Any] = {"color": muted(ax, 0.4), "linewidth": 1.2, "zorder": 1}
@@ -73,10 +73,10 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     from_zero(ax, largest, name="x")
     label_x(ax, "natural frequency, Hz")
     merits = zip(result.names, result.before, result.after, result.limits, strict=True)
-    said = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, each in merits if each is None]
+    changes = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
     missed = "" if result.reached else "requirements not reached"
     set_title(
-        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *said
+        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *changes
     )
     add_legend(ax, last="modes between")
     return ax
@@ -131,7 +131,7 @@ def _designs(
         force = response.body_force if name is None else response.mount_force[name]
         return np.asarray(force.total.peak if wanted is None else force[wanted].peak)
 
-    thin: dict[str, Any] = {"color": muted(ax, THIN), "linewidth": 0.6, "zorder": 1.5}
+    thin: dict[str, Any] = {"color": muted(ax, THIN_STRENGTH), "linewidth": 0.6, "zorder": 1.5}
     largest = 0.0
     for place, k in enumerate(picked):
         values = peaks(int(k))
@@ -139,13 +139,13 @@ def _designs(
         of_all = f"{len(picked)} of {len(result)} designs" if len(picked) < len(result) else ""
         label = of_all or f"{len(result)} designs"
         ax.plot(speeds, values, label="" if place else label, **thin)
-    own = peaks(chosen)
+    nominal = peaks(chosen)
     (look,) = series(ax, 1, {"linewidth": 2.2, "linestyle": "-"} | style)
-    ax.plot(speeds, own, gid=SERIES, label=f"design {chosen}", **look)
+    ax.plot(speeds, nominal, gid=SERIES, label=f"design {chosen}", **look)
     span(ax, speeds)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
-    from_zero(ax, max(largest, float(own.max())))
+    from_zero(ax, max(largest, float(nominal.max())))
     label_x(ax, "crank speed, rpm")
     label_y(ax, units.headed("peak", "N"))
     words = "force on the body" if name is None else f"force of mount {name}"
@@ -201,7 +201,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     return ax
 
 
-SAME = 1e-9
+SAME_AXIS = 1e-9
 """Relative difference of roll stiffnesses, by rounding, within which one axis is drawn."""
 VIEWS = (("from the side", 2, 1), ("from the flywheel", 0, 1), ("from above", 2, 0))
 """Name of a view, and the axes to the right and up."""
@@ -225,8 +225,8 @@ def _axes(
     cg = np.array(powertrain.body.cg)
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
     corners = [places[name] for name in powertrain.static().support_polygon]
-    own, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
-    is_dynamic = abs(dynamic - own) > SAME * own
+    static, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
+    is_dynamic = abs(dynamic - static) > SAME_AXIS * static
     lines = [
         ("torque roll axis", cg, result.torque_roll),
         ("elastic roll axis", result.elastic_foot, result.elastic),

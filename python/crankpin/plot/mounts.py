@@ -211,8 +211,8 @@ def _picture(
         hint = "give one speed, as r.sel(rpm=…)" if several else "needs several speeds"
         raise inputs.rejected("kind", chosen, hint)
     ax = axes_or_new(ax)
-    shown = _orders(result, drawn, orders)
-    notes = kinds[chosen](ax, result, drawn, shown, label, style)
+    drawn_orders = _orders(result, drawn, orders)
+    notes = kinds[chosen](ax, result, drawn, drawn_orders, label, style)
     speed = "" if several else f"{number(float(result.rpm))} rpm"
     set_title(
         ax,
@@ -230,8 +230,8 @@ def _orders(result: MountResponse, drawn: Drawn, orders: Orders | None) -> tuple
     if result._request.orders is not None:
         return result.orders
     largest = np.reshape(drawn.read(None), (-1, len(result.orders))).max(axis=0, initial=0.0)
-    kept = largest > SEEN * largest.max(initial=0.0)
-    return tuple(order for order, is_seen in zip(result.orders, kept, strict=True) if is_seen)
+    is_large = largest > SEEN * largest.max(initial=0.0)
+    return tuple(order for order, is_seen in zip(result.orders, is_large, strict=True) if is_seen)
 
 
 def _cuts(
@@ -245,7 +245,7 @@ def _cuts(
     """Draw the largest orders over speed, and all together."""
     peaks = {order: drawn.read(order) for order in orders}
     by_size = sorted(orders, key=lambda order: -float(peaks[order].max()))
-    kept = sorted(by_size if result._request.orders is not None else by_size[:MOST_CURVES])
+    largest = sorted(by_size if result._request.orders is not None else by_size[:MOST_CURVES])
     rpm = np.asarray(result.rpm)
     along = np.argsort(rpm, kind="stable")
     total = drawn.read(ALL)
@@ -253,7 +253,7 @@ def _cuts(
     bold: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.8}
     (look,) = series(ax, 1, bold | style)
     ax.plot(rpm[along], total[along], label=first, gid=SERIES, **(look | {"linestyle": "-"}))
-    for order, look in zip(kept, series(ax, len(kept), style), strict=True):
+    for order, look in zip(largest, series(ax, len(largest), style), strict=True):
         name = ", ".join(filter(None, [label, f"order {order}"]))
         ax.plot(rpm[along], peaks[order][along], label=name, gid=SERIES, **look)
     span(ax, rpm)
@@ -264,9 +264,9 @@ def _cuts(
     if not total.any():
         note_zero(ax)
     add_legend(ax)
-    rest = len(result.orders) - len(kept)
-    is_cut = rest and len(kept) == MOST_CURVES and result._request.orders is None
-    return f"the {len(kept)} largest of {len(result.orders)} orders" if is_cut else ""
+    rest = len(result.orders) - len(largest)
+    is_cut = rest and len(largest) == MOST_CURVES and result._request.orders is None
+    return f"the {len(largest)} largest of {len(result.orders)} orders" if is_cut else ""
 
 
 def _map(
@@ -363,7 +363,7 @@ def _waterfall(
     ax.add_collection(stems)
     low, high = float(rpm[0]), float(tips.max())
     limits = low - 0.5 * step, high + 0.1 * (high - low)
-    upright = [((each, each), limits) for each in natural if each < right]
+    upright = [((frequency, frequency), limits) for frequency in natural if frequency < right]
     colour_bar([ax], stems, units.headed("peak", drawn.unit), np.maximum(peaks, SEEN * largest))
     _dashed(ax, upright, muted(ax, 0.7))
     _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))

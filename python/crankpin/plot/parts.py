@@ -22,7 +22,15 @@ from crankpin.plot.layout import (
     set_panel_title,
     width_for,
 )
-from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
+from crankpin.plot.rows import (
+    MOST_ORDERS_DRAWN,
+    along_x,
+    dimension,
+    given_orders,
+    largest,
+    values_of,
+    words_of,
+)
 from crankpin.plot.style import DISTINCT, entries_of, series
 from crankpin.plot.ticks import degrees, magnitude_scale, numeric, span
 from crankpin.plot.words import drawn_quantity, nonzero_in
@@ -58,7 +66,7 @@ def parts(
         raise inputs.rejected("kind", "parts", hint)
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]
-    places, note = largest(sweep, name, MOST - 1)
+    places, note = largest(sweep, name, MOST_ORDERS_DRAWN - 1)
     # Where all are zero, one panel says so.
     chosen = [sweep.orders[place] for place in places] or [*(sweep.orders or (1,))[:1]]
     if orders is not None:
@@ -69,24 +77,24 @@ def parts(
         raise inputs.rejected("kind", "parts", f"{hint} beside {along}")
     if ax is not None and len(chosen) * len(names) > 1:
         raise inputs.rejected("ax", ax, "there is a panel for each order and engine; give figure")
-    made, panels = _panels(ax, figure, len(chosen), len(names))
+    grid, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
-        if not made.single:
+        if not grid.single:
             of = ", ".join(filter(None, (f"order {chosen[row]}", names[column])))
             set_panel_title(panel, of)
         _draw(panel, sweep, vectors[row], along, style, column)
-        if made.single or panel.get_subplotspec().is_first_col():
+        if grid.single or panel.get_subplotspec().is_first_col():
             label_y(panel, QUANTITIES[name].words, units.headed("", QUANTITIES[name].unit))
-        if made.single or panel.get_subplotspec().is_last_row():
+        if grid.single or panel.get_subplotspec().is_last_row():
             label_x(panel, dimension(along))
     for of_order, vector in zip(panels, vectors, strict=True):
         for panel in of_order:
             magnitude_scale(panel, _sizes(vector), logarithmic=logarithmic)
-    what = f"order {chosen[0]}" if made.single else note
-    made.set_title(words.title, words.subtitle(name), what)
+    what = f"order {chosen[0]}" if grid.single else note
+    grid.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]
-    made.add_legend([*both, *entries_of(panels, ZERO)])
-    return made.drawn if made.single else panels
+    grid.add_legend([*both, *entries_of(panels, ZERO)])
+    return grid.drawn if grid.single else panels
 
 
 def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Panels, NDArray[Any]]:
@@ -105,7 +113,7 @@ def _panels(ax: Axes | None, figure: object, orders: int, rest: int) -> tuple[Pa
 
 def _sizes(vector: Quantity) -> NDArray[np.float64]:
     """Return the magnitudes of both parts of an order: (…, 2)."""
-    phasors = np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1)
+    phasors = np.stack([getattr(vector, part) for part in labels.TURNING_WORDS], axis=-1)
     return np.asarray(np.abs(phasors), dtype=np.float64)
 
 
@@ -115,11 +123,11 @@ def _draw(
     """Draw both parts of an order; the column is a place among what is not drawn along x."""
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     heights = np.moveaxis(_sizes(vector), list(sweep.coords).index(along), 0)
-    heights = heights.reshape(len(values), -1, len(labels.TURNING))
-    looks = series(ax, len(labels.TURNING), style)
+    heights = heights.reshape(len(values), -1, len(labels.TURNING_WORDS))
+    looks = series(ax, len(labels.TURNING_WORDS), style)
     drawn = [
         Curve((column, k), look, text)
-        for k, (look, text) in enumerate(zip(looks, labels.TURNING.values(), strict=True))
+        for k, (look, text) in enumerate(zip(looks, labels.TURNING_WORDS.values(), strict=True))
     ]
     span(ax, values)
     lines(ax, values, heights, drawn)

@@ -53,15 +53,15 @@ ORDERS = (1, 2)
 """Orders that are drawn of a balance whose orders were not given."""
 SUM = 4.0
 """Points of the sum's line, below those of the arms."""
-NARROW = 4.0
+NARROW_GAP = 4.0
 """Points between arrows side by side where there is no room for their names between them."""
 MOST_ROOM = 0.4
 """Part of a panel that arrows moved aside may take, on either side."""
 MOST_NAMES = 2.0
 """Sides of a panel that all names may take one behind the other."""
-NOTHING = 1e-9
+SHORTEST_DRAWN = 1e-9
 """Phasors and vectors below this part of the longest are not drawn."""
-DIGITS = 9
+EQUAL_DECIMALS = 9
 """Decimals to which vectors of one direction agree, and arrows of one length over the longest."""
 
 
@@ -83,24 +83,24 @@ def phasors(
         raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
     kind = drawn_quantity(quantity, nonzero_in(result))
     result._request.check(kind)
-    shown = inputs.explicit_half_orders(
+    chosen = inputs.explicit_half_orders(
         orders if orders is not None else result._request.orders or ORDERS
     )
-    whole = result._at_orders(tuple(shown))
+    whole = result._at_orders(tuple(chosen))
     arms = adding.contributions(whole, kind)
     sums = adding.phasors(whole, kind)
     rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)
     width, height = mpl.rcParams["figure.figsize"]
     # Square panels, each below its two lines, between the title and the legend.
-    inches = len(rows) * (0.8 * width / len(shown) + 0.4) + 1.1
+    inches = len(rows) * (0.8 * width / len(chosen) + 0.4) + 1.1
     row_height = (inches / height - 0.25) / len(rows)
-    figure, axes, _ = make_panels(None, figure, len(rows), len(shown), row_height=row_height)
+    figure, axes, _ = make_panels(None, figure, len(rows), len(chosen), row_height=row_height)
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
     font = FontProperties(size="small")
     widths = {part: points_of(figure, part, font) for part in {arm.part for arm in arms}}
     aside = crowded = False
-    for column, order in enumerate(shown):
+    for column, order in enumerate(chosen):
         for row, part in enumerate(rows):
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
@@ -150,7 +150,7 @@ def _polygon(
     if not longest:
         note_zero(ax)
         return 0.0, [], True
-    drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
+    drawn = [k for k in range(len(arms)) if lengths[k] > SHORTEST_DRAWN * longest]
     arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
     lanes = _lanes(arrows)
     beside = lane = 5.0 + max(widths[arms[k].part] for k in drawn)
@@ -158,7 +158,7 @@ def _polygon(
         drawn
     ) <= MOST_NAMES * _points(ax)
     if not whole:
-        lane = min(NARROW, MOST_ROOM * _points(ax) / max(1, *lanes))
+        lane = min(NARROW_GAP, MOST_ROOM * _points(ax) / max(1, *lanes))
     middle = complex(chain[:-1].mean())
     names: list[tuple[str, complex, complex]] = []
     for k, (start, end), aside in zip(drawn, arrows, lanes, strict=True):
@@ -170,12 +170,12 @@ def _polygon(
         arrow(ax, start, end, aside * lane * across, 9.0 if whole else 6.0, **looks)
         place = aside * lane * across + 0.5 * beside * out
         names.append((arms[k].part, 0.5 * (start + end), place))
-    if abs(total) > NOTHING * longest:
+    if abs(total) > SHORTEST_DRAWN * longest:
         arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
     ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
     if not whole:
         # Of arrows of one length the first; rounding does not choose.
-        sizes = np.round(lengths[drawn] / longest, DIGITS)
+        sizes = np.round(lengths[drawn] / longest, EQUAL_DECIMALS)
         names = [names[n] for n in np.argsort(-sizes, kind="stable")]
     return lane * max(lanes), names, whole
 
@@ -251,9 +251,9 @@ def _lanes(arrows: Sequence[tuple[complex, complex]]) -> list[int]:
         length = high - low
         used = {
             lane
-            for other, there, first, last, lane in taken
+            for other, place, first, last, lane in taken
             if abs(other - across) < 1e-6
-            and abs(there - offset) < 1e-6 * length
+            and abs(place - offset) < 1e-6 * length
             and min(high, last) - max(low, first) > 1e-6 * length
         }
         lane = next(k for k in range(len(used) + 1) if k not in used)
@@ -333,10 +333,10 @@ def _star(
     if order is not None and figure is not None:
         raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:
-        shown = _shown(result) if order is None else result.orders[result._place(order)]
+        chosen = _shown(result) if order is None else result.orders[result._place(order)]
         ax = axes_or_new(ax)
-        handles = _vectors(ax, result, shown, style)
-        what = joined(f"order {shown}", _finding(result, shown), loads_of(result))
+        handles = _vectors(ax, result, chosen, style)
+        what = joined(f"order {chosen}", _finding(result, chosen), loads_of(result))
         set_title(ax, labels.name_of(result.engine), what)
         add_legend(ax, handles=handles)
         return ax
@@ -363,7 +363,7 @@ def _distinct(result: StarDiagram) -> list[list[Order]]:
     """Return the orders that have the same vectors, as even firing makes them every few orders."""
     alike: dict[bytes, list[Order]] = {}
     for order, vectors in zip(result.orders, result.vectors, strict=True):
-        alike.setdefault((np.round(vectors, DIGITS) + 0.0).tobytes(), []).append(order)
+        alike.setdefault((np.round(vectors, EQUAL_DECIMALS) + 0.0).tobytes(), []).append(order)
     return list(alike.values())
 
 
@@ -380,8 +380,10 @@ def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any])
     looks = {"color": colours(ax, 1)[0], "linewidth": 1.5} | style
     rays: dict[complex, list[int]] = {}
     for cylinder, vector in enumerate(vectors.tolist(), start=1):
-        if abs(vector) > NOTHING * longest:
-            rays.setdefault(complex(np.round(vector / abs(vector), DIGITS)), []).append(cylinder)
+        if abs(vector) > SHORTEST_DRAWN * longest:
+            rays.setdefault(complex(np.round(vector / abs(vector), EQUAL_DECIMALS)), []).append(
+                cylinder
+            )
     for numbers in rays.values():
         # Of vectors of one direction the longest covers the others, whose tips are marked.
         tips = [complex(vectors[cylinder - 1]) / longest for cylinder in numbers]

@@ -47,13 +47,13 @@ DOTS = 30.0
 """Degrees between dots."""
 LABELS = 4
 """Dots of a period with their angle."""
-SAME = 0.08
+SAME_LABEL = 0.08
 """Part of the orbit's radius within which dots share one label."""
-NARROWEST = 0.75
+NARROWEST_PANEL = 0.75
 """The shorter side of panels that share a scale, over the longer one."""
-LEVEL = 1e-9
+ON_AXIS = 1e-9
 """Part of a point's distance within which it is on an axis: rounding."""
-NARROW = 0.3
+NARROW_CURVE = 0.3
 """Shorter over longer reach below which the angles of a curve stand across its length."""
 ARROWS = (15.0, 135.0, 255.0)
 """Crank angles of the arrows, degrees."""
@@ -153,11 +153,11 @@ def _beside(
 
     Away from the origin; of a long and narrow curve, on which they would stand then, across it.
     """
-    high, wide = (abs(each).max(initial=0.0) for each in (curve.imag, curve.real))
-    across = 1j if high <= NARROW * wide else 1.0 if wide <= NARROW * high else 0.0
+    high, wide = (abs(part).max(initial=0.0) for part in (curve.imag, curve.real))
+    across = 1j if high <= NARROW_CURVE * wide else 1.0 if wide <= NARROW_CURVE * high else 0.0
     for k, (point, angles) in enumerate(labelled):
         side = (point * np.conj(across)).real
-        if abs(side) <= LEVEL * abs(point):
+        if abs(side) <= ON_AXIS * abs(point):
             side = (-1.0) ** k
         yield point, angles, across * side or point
 
@@ -173,7 +173,7 @@ def _labelled(
     theta: NDArray[np.float64], curve: NDArray[np.complex128], period: float
 ) -> Iterator[tuple[complex, str]]:
     """Yield points and the crank angles at which the curve passes them."""
-    near = SAME * float(abs(curve).max(initial=0.0))
+    near = SAME_LABEL * float(abs(curve).max(initial=0.0))
     rest = list(_places(theta, period / LABELS, period)) if near else []
     while rest:
         here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
@@ -206,18 +206,18 @@ def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels
 
 def share_scale(panels: Panels) -> None:
     """Give all panels one scale; its numbers stand beside the outer ones."""
-    shown = [panel for panel in panels.axes.flat if panel.get_visible()]
-    ends = np.array([panel.dataLim.get_points() for panel in shown])
+    visible = [panel for panel in panels.axes.flat if panel.get_visible()]
+    ends = np.array([panel.dataLim.get_points() for panel in visible])
     limits = np.stack([ends.min(axis=(0, 1)), ends.max(axis=(0, 1))], axis=-1)
     spans = limits[:, 1] - limits[:, 0]
     # Panels of long and narrow curves have room for the angles at them.
-    lacking = np.maximum(0.0, NARROWEST * spans[::-1] - spans)
+    lacking = np.maximum(0.0, NARROWEST_PANEL * spans[::-1] - spans)
     limits += 0.5 * np.stack([-lacking, lacking], axis=-1)
     columns = panels.axes.shape[1]
-    for place, panel in enumerate(shown):
+    for place, panel in enumerate(visible):
         panel.set(xlim=limits[0], ylim=limits[1])
         panel.set_aspect("equal", adjustable="box")
-        lowest = place + columns >= len(shown)
+        lowest = place + columns >= len(visible)
         panel.tick_params(labelleft=place % columns == 0, labelbottom=lowest)
 
 

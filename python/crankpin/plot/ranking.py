@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.design.designs import Design
     from crankpin.analysis.ranking.ranking import Choice
 
-POINTS = 181
+CURVE_POINTS = 181
 """Bank angles of a design's curve, besides those of the designs."""
 BEST, DESIGN = "best bank angle", "design"
 MANY = 300
@@ -159,7 +159,7 @@ def _designs(
     number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
     best = designs.designs[:number]
-    names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]
+    names = [", ".join(filter(None, [label, _crank_text(design)])) for design in best]
     quantity = objective_words(designs.objectives[0])
     what = joined(designs._description(1), loads_of(designs))
     set_title(ax, _title(designs, len(best)), what)
@@ -172,9 +172,9 @@ def _designs(
     return ax
 
 
-def _title(designs: Designs, shown: int) -> str:
+def _title(designs: Designs, count: int) -> str:
     question = designs.question
-    counted = f"{shown} of {designs.optima}" if shown < designs.optima else f"{shown}"
+    counted = f"{count} of {designs.optima}" if count < designs.optima else f"{count}"
     noun = "design" if designs.optima == 1 else "designs"
     return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} {noun}"
 
@@ -198,11 +198,11 @@ def _over_bank_angle(
     """
     question = designs.question
     low, high = bank_angle_range(designs)
-    own = [float(each.bank_angle_deg or 0.0) for each in best]
-    angles = np.union1d(np.linspace(low, high, POINTS), own)
+    bank_angles = [float(design.bank_angle_deg or 0.0) for design in best]
+    angles = np.union1d(np.linspace(low, high, CURVE_POINTS), bank_angles)
     heights = designs.over_bank_angle(angles, len(best))
     # Several designs may be dips of one curve.
-    cranks = [turned(question, each.crank, low) for each in best]
+    cranks = [turned(question, design.crank, low) for design in best]
     firsts = [cranks.index(crank) for crank in cranks]
     curves = sorted(set(firsts))
     looks = dict(zip(curves, series(ax, len(curves), style), strict=True))
@@ -210,7 +210,7 @@ def _over_bank_angle(
     least, most = question.pin_split
     for k, look in looks.items():
         splits = [turned(question, best[k].crank, angle).splits for angle in angles.tolist()]
-        allowed = np.array([all(least <= each <= most for each in at) for at in splits])
+        allowed = np.array([all(least <= split <= most for split in at) for at in splits])
         allowed |= question.hold == "pins"
         ax.plot(
             angles,
@@ -224,9 +224,9 @@ def _over_bank_angle(
             thin = look | {"linestyle": ":", "linewidth": 0.8}
             ax.plot(angles, heights[k], gid="", label=once(ax, FORBIDDEN), **thin)
     for k, design in enumerate(best):
-        place = np.array([own[k]]), np.array([design.value])
+        place = np.array([bank_angles[k]]), np.array([design.value])
         ring(ax, *place, looks[firsts[k]]["color"], "o", DESIGN)
-    write_at_mark(ax, own[0], best[0].value, _angle(own[0]))
+    write_at_mark(ax, bank_angles[0], best[0].value, _angle(bank_angles[0]))
 
 
 # --- searches -----------------------------------------------------------------------------------
@@ -246,8 +246,8 @@ def _search(
     """
     ax = axes_or_new(ax)
     arrangements = list(result)
-    angles = np.array([each.bank_angle_deg for each in arrangements])
-    heights = np.array([max(each.second_order) for each in arrangements])
+    angles = np.array([arrangement.bank_angle_deg for arrangement in arrangements])
+    heights = np.array([max(arrangement.second_order) for arrangement in arrangements])
     without = f"{len(arrangements)} bank angles without backward moment, {result.hold} held"
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
@@ -293,12 +293,12 @@ def _listed(
 ) -> None:
     """Draw values below each other, the best first; those of the first place ringed."""
     rows = np.arange(len(best))
-    values = np.array([each.value for each in best])
+    values = np.array([design.value for design in best])
     values[~np.isfinite(values)] = np.nan
     (look,) = series(ax, 1, style)
     dots: dict[str, Any] = {"marker": "o", "markersize": 5.0} | look | {"linestyle": ""}
     ax.plot(values, rows, gid=SERIES, clip_on=False, label="_", **dots)
-    first = np.array([each.place == 1 for each in best])
+    first = np.array([design.place == 1 for design in best])
     ring(ax, values[first], rows[first], foreground(ax), "o", "_")
     for row, value in zip(rows, values, strict=True):
         if np.isfinite(value):

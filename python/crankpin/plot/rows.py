@@ -20,31 +20,31 @@ if TYPE_CHECKING:
     from crankpin.analysis.by_order import ByOrder
     from crankpin.analysis.sweeps.sweep import Sweep
 
-MOST = 4
+MOST_ORDERS_DRAWN = 4
 """Number of orders in a picture."""
 
 
 def given_orders(orders: object) -> list[Order]:
     """Return orders that are to be drawn, one at least."""
-    if listed := inputs.explicit_half_orders(orders):
-        return listed
+    if chosen := inputs.explicit_half_orders(orders):
+        return chosen
     raise inputs.rejected("orders", [], "give at least one order, such as [1, 2]")
 
 
-def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int], str]:
+def largest(result: ByOrder, quantity: str, most: int = MOST_ORDERS_DRAWN) -> tuple[list[int], str]:
     """Return places of the largest orders, ascending, and a note of the others, if not zero."""
     count = len(result.orders)
     peaks = (
         result.read(quantity, "peak").reshape(-1, max(1, count)).max(axis=0, initial=0.0)[:count]
     )
     by_size = np.argsort(-peaks, kind="stable")
-    kept = [
+    chosen = [
         place for place in by_size[:most] if peaks[place] > labels.MATTERS * peaks.max(initial=0.0)
     ]
-    rest = [result.orders[place] for place in by_size if peaks[place] > 0.0 and place not in kept]
-    listed = labels.orders_text(sorted(rest), labels.MOST_LISTED)
-    note = f"smaller, not shown: {listed}" if rest else ""
-    return sorted(int(place) for place in kept), note
+    rest = [result.orders[place] for place in by_size if peaks[place] > 0.0 and place not in chosen]
+    rest_text = labels.orders_text(sorted(rest), labels.MOST_LISTED)
+    note = f"smaller, not shown: {rest_text}" if rest else ""
+    return sorted(int(place) for place in chosen), note
 
 
 class Row(NamedTuple):
@@ -93,7 +93,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     rows = [row(f"all orders{which}", sweep.total)]
     if single:
         return Rows(rows, columns, "")
-    places, note = largest(sweep, quantity, MOST - 1)
+    places, note = largest(sweep, quantity, MOST_ORDERS_DRAWN - 1)
     rows += [one(sweep.orders[place]) for place in places]
     return Rows(rows, columns, note)
 

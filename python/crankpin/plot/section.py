@@ -77,7 +77,7 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
         ax.plot(corners.real, corners.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
         axis = at.foot[k] + np.array([0.0, heads[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
-        numbers = listed([each + 1 for each in cylinders])
+        numbers = listed([place + 1 for place in cylinders])
         outside(ax, axis[1], numbers, complex(at.axis[k]))
         reached.append(corners)
     # Numbers need room beyond the heads.
@@ -88,17 +88,17 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
     largest = crank_radius(engine)
     width = 2.0 * JOURNAL * largest
     weights = weights_on_crank(engine, at.theta_deg)
-    radii = radius_of_amounts(engine, [each.amount for each in weights])
+    radii = radius_of_amounts(engine, [weight.amount for weight in weights])
     sectors = [
-        wedge(each.axis, radius, each.angle_deg)
-        for radius, each in zip(radii, weights, strict=True)
+        wedge(weight.axis, radius, weight.angle_deg)
+        for radius, weight in zip(radii, weights, strict=True)
         if radius
     ]
     add(ax, sectors, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.6, zorder=2.5)
     pins = zip(at.axis.tolist(), at.crankpin.round(9).tolist(), strict=True)
-    webs = [bar(*each, 1.3 * width, width) for each in dict.fromkeys(pins)]
+    webs = [bar(*pin, 1.3 * width, width) for pin in dict.fromkeys(pins)]
     add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
-    axes = dict.fromkeys([0j, *at.axis.tolist(), *(each.axis for each in weights)])
+    axes = dict.fromkeys([0j, *at.axis.tolist(), *(weight.axis for weight in weights)])
     journals = [disc(axis, 0.5 * width) for axis in axes]
     add(ax, journals, facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
     carrying = {weight.axis for weight in weights} | set(at.axis.tolist())
@@ -145,13 +145,13 @@ def _moving_parts(
 def _shafts(engine: Engine, ax: Axes, theta_deg: float, ink: Inks) -> None:
     """Draw balance shafts at their places, with their unbalances and ratios."""
     weights = weights_on_shafts(engine, theta_deg)
-    amounts = [each.amount for shaft in weights for each in shaft]
+    amounts = [weight.amount for shaft in weights for weight in shaft]
     radii = iter(radius_of_amounts(engine, amounts))
     names: dict[complex, list[str]] = {}
     sectors, discs = [], []
     for shaft, carried in zip(engine.shafts, weights, strict=True):
         place = complex(shaft.x, shaft.y)
-        sectors += [wedge(place, 0.7 * next(radii), each.angle_deg) for each in carried]
+        sectors += [wedge(place, 0.7 * next(radii), weight.angle_deg) for weight in carried]
         discs.append(disc(place, 0.5 * JOURNAL * crank_radius(engine)))
         names.setdefault(place, []).append(shaft_text(shaft.name, shaft.ratio))
     add(ax, sectors, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.6, zorder=5)
@@ -171,14 +171,14 @@ def shaft_text(name: str, ratio: float) -> str:
 
 def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:
     """Draw a round length, about as long as the stroke, below the drawing on the left."""
-    shown = units.convert("m")
-    stroke = 2.0 * crank_radius(engine) * shown.factor
+    converted = units.convert("m")
+    stroke = 2.0 * crank_radius(engine) * converted.factor
     decade = 10.0 ** np.floor(np.log10(stroke))
     length = max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= stroke)
     left, (low, high) = ax.get_xlim()[0], ax.get_ylim()
     low -= 0.16 * (high - low)  # below the numbers of hanging cylinders
     ax.set_ylim(low, high)
-    right = left + length / shown.factor
+    right = left + length / converted.factor
     ax.plot([left, right], [low, low], color=ink.line, linewidth=1.5, linestyle="-")
     middle = complex(0.5 * (left + right), low)
-    write(ax, f"{number(length)} {shown.unit}", middle, -3.0j, va="top", fontsize="x-small")
+    write(ax, f"{number(length)} {converted.unit}", middle, -3.0j, va="top", fontsize="x-small")

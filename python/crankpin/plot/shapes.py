@@ -78,7 +78,7 @@ def inks_of(ax: Axes) -> Inks:
 
 def legend_handles(engine: Engine, ink: Inks) -> list[Patch]:
     """Return what explains the colours of unbalances, of those that the engine has."""
-    on_shafts = [each for shaft in weights_on_shafts(engine) for each in shaft]
+    on_shafts = [weight for shaft in weights_on_shafts(engine) for weight in shaft]
     kinds = [
         (rotating_masses(engine), ink.journal, "rotating masses"),
         (weights_on_crank(engine), ink.weight, "counterweights"),
@@ -89,10 +89,10 @@ def legend_handles(engine: Engine, ink: Inks) -> list[Patch]:
             facecolor=colour,
             edgecolor=ink.line,
             linewidth=0.6,
-            label=f"{name}, up to {_amount(max(each.amount for each in weights))} each",
+            label=f"{name}, up to {_amount(max(weight.amount for weight in weights))} each",
         )
         for weights, colour, name in kinds
-        if any(each.amount for each in weights)
+        if any(weight.amount for weight in weights)
     ]
 
 
@@ -137,7 +137,9 @@ def points(outline: NDArray[np.complex128]) -> NDArray[np.float64]:
 def add(ax: Axes, outlines: Iterable[NDArray[np.complex128]], **style: Any) -> None:  # noqa: ANN401
     """Draw outlines, each over the ones before it."""
     if "color" in style:  # of faces and edges; matplotlib warns of both
-        style = {key: each for key, each in style.items() if key not in {"facecolor", "edgecolor"}}
+        style = {
+            key: value for key, value in style.items() if key not in {"facecolor", "edgecolor"}
+        }
     drawn = PolyCollection([points(outline) for outline in outlines], **style)
     ax.add_collection(drawn, autolim=False)
 
@@ -162,7 +164,7 @@ def radius_of_amounts(engine: Engine, amounts: Sequence[float]) -> list[float]:
     """Return radii of sectors whose areas are as the amounts; the largest reaches past the pins."""
     largest = max(amounts, default=0.0)
     reach = 1.25 * crank_radius(engine)
-    return [reach * float(np.sqrt(each / largest)) if largest else 0.0 for each in amounts]
+    return [reach * float(np.sqrt(amount / largest)) if largest else 0.0 for amount in amounts]
 
 
 def crank_radius(engine: Engine) -> float:
@@ -173,9 +175,9 @@ def crank_radius(engine: Engine) -> float:
 def by_direction(weights: Iterable[Weight]) -> dict[complex, float]:
     """Add up unbalances that point the same way: unit vector → kg·m."""
     sums: dict[complex, float] = {}
-    for each in weights:
-        towards = complex(np.round(direction(each.angle_deg), 6))
-        sums[towards] = sums.get(towards, 0.0) + each.amount
+    for weight in weights:
+        towards = complex(np.round(direction(weight.angle_deg), 6))
+        sums[towards] = sums.get(towards, 0.0) + weight.amount
     return sums
 
 
@@ -221,5 +223,5 @@ def arrow_round(
 
 def _amount(unbalance: float) -> str:
     """Write an unbalance, kg·m."""
-    shown = units.convert("kg·m")
-    return f"{rounded(unbalance * shown.factor)} {shown.unit}"
+    converted = units.convert("kg·m")
+    return f"{rounded(unbalance * converted.factor)} {converted.unit}"

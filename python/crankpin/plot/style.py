@@ -92,9 +92,9 @@ def blend(colour: ColorType, other: ColorType, strength: float) -> tuple[float, 
 def font_of(parameter: str, relative: str) -> FontProperties:
     """Return the font of an rcParam, of a ``relative`` size where that is matplotlib's own."""
     now: Any = mpl.rcParams
-    own: Any = mpl.rcParamsDefault
+    defaults: Any = mpl.rcParamsDefault
     size = now[parameter]
-    return FontProperties(size=relative if size == own[parameter] else size)
+    return FontProperties(size=relative if size == defaults[parameter] else size)
 
 
 # --- series -------------------------------------------------------------------------------------
@@ -139,9 +139,9 @@ def of_maps() -> str:
     In place of matplotlib's own viridis: colour-blind readers see the same in it as others.
     """
     now: Any = mpl.rcParams
-    own: Any = mpl.rcParamsDefault
+    defaults: Any = mpl.rcParamsDefault
     name = str(now["image.cmap"])
-    return "cividis" if name == own["image.cmap"] else name
+    return "cividis" if name == defaults["image.cmap"] else name
 
 
 def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list[dict[str, Any]]:

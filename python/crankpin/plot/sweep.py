@@ -134,7 +134,7 @@ def _class(ax: Axes, classes: Sequence[str]) -> None:
 
 # --- sweep ---------------------------------------------------------------------------------------
 
-KINDS: Kinds = {
+SWEEP_PICTURES: Kinds = {
     "curves": curves,
     "parts": parts,
     "map": heat_map,
@@ -217,7 +217,7 @@ def _sweep(
                 hint = 'has no meaning for kind="bars"; leave it out'
                 raise inputs.rejected(name, value, hint)
     options = {"quantity": quantity, "x": x, "orders": orders, "log": log, "label": label}
-    return draw_kind(KINDS, chosen, result, ax, figure, **options, **style)
+    return draw_kind(SWEEP_PICTURES, chosen, result, ax, figure, **options, **style)
 
 
 def _chosen(sweep: Sweep, x: str | None) -> str:

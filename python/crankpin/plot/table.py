@@ -77,20 +77,20 @@ def table(
     frame : str, default "table"
         Name of one of ``frames``.
     """
-    shown = result.frames[frame]
-    shown._check_text()
-    panels = _panels(shown)
-    title, *others = shown._in(units.current()).title.split("\n")
+    table = result.frames[frame]
+    table._check_text()
+    panels = _panels(table)
+    title, *others = table._in(units.current()).title.split("\n")
     if not panels:
-        return _words(shown, ax, figure, title, style)
+        return _words(table, ax, figure, title, style)
     count = 1 if ax is not None else min(len(panels), MOST_PANELS)
     more = len(panels) - count
-    along = shown.columns[0]
+    along = table.columns[0]
     swept = (along.name in SWEPT or along.name == "theta_deg" or bool(along.unit)) and len(
-        shown
+        table
     ) > 2
     x = along._array() if swept and not along.is_text else np.zeros(0)
-    is_curve = x.size > 2 and bool((np.diff(x) > 0.0).all()) and not shown.row_units
+    is_curve = x.size > 2 and bool((np.diff(x) > 0.0).all()) and not table.row_units
     bars = max(len(panel.rows[:MOST_BARRED]) * len(panel.columns) for panel in panels[:count])
     height = 0.6 if is_curve else min(0.9, LEAST_HEIGHT + OF_BAR * bars)
     grid = make_panels(ax, figure, count, 1, row_height=height, sharex=is_curve)
@@ -98,22 +98,22 @@ def table(
         if is_curve:
             _curves(place, x, panel, style)
         else:
-            _bars(place, _names(shown), panel, style)
+            _bars(place, _names(table), panel, style)
         add_legend(place)
     if is_curve:
         label_x(grid.axes[-1, 0], units.headed(along.name, along.unit))
-    notes = [f"{len(shown)} rows, {MOST_BARRED} drawn"] * (
-        not is_curve and len(shown) > MOST_BARRED
+    notes = [f"{len(table)} rows, {MOST_BARRED} drawn"] * (
+        not is_curve and len(table) > MOST_BARRED
     )
     notes += [f"{more} more units"] * bool(more and not grid.single)
     grid.set_title(title, joined(*others[:1], *notes))
     return grid.drawn
 
 
-def _panels(shown: Table) -> list[Panel]:
+def _panels(table: Table) -> list[Panel]:
     """Return the numbers of a table by unit."""
     by_unit: dict[str, Panel] = {}
-    for name, column in shown._numbers().items():
+    for name, column in table._numbers().items():
         cells = column._listed()
         values = np.array(
             [
@@ -121,9 +121,9 @@ def _panels(shown: Table) -> list[Panel]:
                 for cell in cells
             ]
         )
-        for unit in dict.fromkeys(shown.row_units or [column.unit]):
-            rows = [k for k, one in enumerate(shown.row_units) if one == unit]
-            rows = rows if shown.row_units else [*range(len(shown))]
+        for unit in dict.fromkeys(table.row_units or [column.unit]):
+            rows = [k for k, one in enumerate(table.row_units) if one == unit]
+            rows = rows if table.row_units else [*range(len(table))]
             if np.isfinite(values[rows]).any():
                 panel = by_unit.setdefault(
                     column.unit or unit, Panel(column.unit or unit, rows, {})
@@ -132,15 +132,15 @@ def _panels(shown: Table) -> list[Panel]:
     return [*by_unit.values()]
 
 
-def _names(shown: Table) -> list[str]:
+def _names(table: Table) -> list[str]:
     """Return the names of the rows of a table."""
-    numbers = shown._numbers()
+    numbers = table._numbers()
     beside = [
-        each.cells()
-        for head, each in shown._distinct(units=False)
+        column.cells()
+        for head, column in table._distinct(units=False)
         if head not in numbers and head != "unit"
     ]
-    beside = beside or [[str(k + 1) for k in range(len(shown))]]
+    beside = beside or [[str(k + 1) for k in range(len(table))]]
     return [plain_text(", ".join(cells)) for cells in zip(*beside, strict=True)]
 
 
@@ -162,8 +162,8 @@ def _bars(ax: Axes, names: list[str], panel: Panel, style: dict[str, Any]) -> No
     for k, ((name, values), look) in enumerate(zip(panel.columns.items(), looks, strict=True)):
         options = {"color": look["color"], "gid": SERIES, "label": plain_text(name)}
         at = places + (k - (len(panel.columns) - 1) / 2.0) * height
-        known = np.nan_to_num(values[: len(rows)])
-        ax.barh(at, known, height=0.9 * height, **(options | style))
+        lengths = np.nan_to_num(values[: len(rows)])
+        ax.barh(at, lengths, height=0.9 * height, **(options | style))
     if not any(np.nan_to_num(values).any() for values in panel.columns.values()):
         note_zero(ax)
     ax.set_yticks(places, [names[row] for row in rows])
@@ -182,13 +182,13 @@ def _label(ax: Axes, panel: Panel, label: Callable[[Axes, str], None]) -> None:
 
 
 def _words(
-    shown: Table, ax: Axes | None, figure: object, title: str, style: dict[str, Any]
+    table: Table, ax: Axes | None, figure: object, title: str, style: dict[str, Any]
 ) -> Drawn:
     """Draw the cells of a table of words, each word in its colour."""
     grid = make_panels(ax, figure, 1, 1, row_height=0.9)
     place = grid.axes[0, 0]
-    first, *others = shown.columns
-    rows = [each.cells(MOST_BARRED) for each in others]
+    first, *others = table.columns
+    rows = [column.cells(MOST_BARRED) for column in others]
     words = dict.fromkeys(word for row in rows for word in row)
     shades = dict(zip(words, colours(place, len(words)), strict=True))
     for column, cells in enumerate(rows):
@@ -199,7 +199,7 @@ def _words(
             look: dict[str, Any] = {"ha": "center", "va": "center", "color": foreground(place)}
             place.text(column, row, plain_text(word), fontsize="small", **look)
     place.set_yticks(range(len(rows[0])), [plain_text(name) for name in first.cells(MOST_BARRED)])
-    place.set_xticks(range(len(others)), [plain_text(each.header) for each in others])
+    place.set_xticks(range(len(others)), [plain_text(column.header) for column in others])
     place.tick_params(length=0.0, labelsize="x-small")
     place.spines[:].set_visible(False)
     place.set_ylim(max(1, len(rows[0])) - 0.5, -0.5)
@@ -213,7 +213,7 @@ def _words(
 
 
 def drawn_as(
-    shown: type, other: type, of: Callable[[Any], Any], text: str, /, **fixed: object
+    kind: type, other: type, of: Callable[[Any], Any], text: str, /, **fixed: object
 ) -> None:
     """Register the picture of another class for what a result has of it.
 
@@ -237,25 +237,25 @@ def drawn_as(
         return drawing(of(result), ax, **options, **fixed)  # type: ignore[no-any-return]
 
     signature = inspect.signature(drawing)
-    free = [each for each in signature.parameters.values() if each.name not in fixed]
+    free = [parameter for parameter in signature.parameters.values() if parameter.name not in fixed]
     draw.__signature__ = signature.replace(parameters=free)  # type: ignore[attr-defined]
     summary, _, rest = (inspect.getdoc(drawing) or "").partition("\n\nParameters\n")
     entries = rest.partition("\n\nReturns\n")[0].partition("\n\nExamples\n")[0]
     for name in fixed:
         entries = _without(entries, name)
     draw.__doc__ = f"{text}\n\nParameters\n{entries}" if summary else text
-    picture.register(shown, draw)
+    picture.register(kind, draw)
 
 
 def _without(entries: str, name: str) -> str:
     """Return entries of a docstring without one."""
     heads = entries.split("\n")
-    kept, skips = [], False
+    passed, skips = [], False
     for line in heads:
         if line and not line.startswith(" "):
             skips = line.startswith(f"{name} : ")
-        kept += [] if skips else [line]
-    return "\n".join(kept)
+        passed += [] if skips else [line]
+    return "\n".join(passed)
 
 
 UNIT_CYLINDER = Cylinder(1.0, 3.0, 1.0)
@@ -290,7 +290,7 @@ drawn_as(
 
 # --- results without a picture --------------------------------------------------------------------
 
-WITHOUT = {
+WITHOUT_PICTURE = {
     ClosedForm: "a formula: draw engine.balance(…), or print it with to_latex",
     WorstForce: "one number: draw the response, which has all",
 }
@@ -299,8 +299,10 @@ WITHOUT = {
 
 def _reject(result: object, ax: object = None) -> Drawn:
     """Raise an InputError: of this there is no picture."""
-    raise inputs.faulty("plot", f"has no picture of {type(result).__name__}", WITHOUT[type(result)])
+    raise inputs.faulty(
+        "plot", f"has no picture of {type(result).__name__}", WITHOUT_PICTURE[type(result)]
+    )
 
 
-for _kind in WITHOUT:
+for _kind in WITHOUT_PICTURE:
     picture.register(_kind, _reject)

@@ -55,7 +55,7 @@ class RoundLocator(Locator):
         low, high = sorted((vmin, vmax))
         places: Sequence[float] = []
         for places in self._candidates(low, high):
-            inside = [each for each in places if low <= each <= high]
+            inside = [place for place in places if low <= place <= high]
             if self.axis is None or high == low or self._fit(inside, high - low):
                 break
         return places
@@ -66,7 +66,7 @@ class RoundLocator(Locator):
             ticks = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
                 low, high
             )
-            yield [each for each in ticks if not self.whole or each == round(each)]
+            yield [tick for tick in ticks if not self.whole or tick == round(tick)]
 
     def _fit(self, places: Sequence[float], span: float) -> bool:
         """Return whether labels at these places do not touch."""
@@ -164,8 +164,8 @@ def magnitude_scale(
 class ScaledLocator(Locator):
     """Ticks where numbers in another unit are round."""
 
-    def __init__(self, own: Locator, factor: float) -> None:
-        self.own, self.factor = own, factor
+    def __init__(self, locator: Locator, factor: float) -> None:
+        self.own, self.factor = locator, factor
 
     def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
         """Set the axis, of the locator for the other unit too."""
@@ -179,15 +179,15 @@ class ScaledLocator(Locator):
 
     def tick_values(self, vmin: float, vmax: float) -> Sequence[float]:
         """Return the places of the ticks between two values."""
-        found = self.own.tick_values(vmin * self.factor, vmax * self.factor)
-        return [float(each) / self.factor for each in found]
+        ticks = self.own.tick_values(vmin * self.factor, vmax * self.factor)
+        return [float(place) / self.factor for place in ticks]
 
 
 class ScaledFormatter(Formatter):
     """Numbers of ticks in another unit."""
 
-    def __init__(self, own: Formatter, factor: float) -> None:
-        self.own, self.factor = own, factor
+    def __init__(self, formatter: Formatter, factor: float) -> None:
+        self.own, self.factor = formatter, factor
 
     def set_axis(self, axis: Any) -> None:  # noqa: ANN401 - of matplotlib
         """Set the axis, of the formatter for the other unit too."""
@@ -197,7 +197,7 @@ class ScaledFormatter(Formatter):
     def set_locs(self, locs: Any) -> None:  # noqa: ANN401 - of matplotlib
         """Set the places of all ticks."""
         super().set_locs(locs)
-        self.own.set_locs([float(each) * self.factor for each in locs])
+        self.own.set_locs([float(place) * self.factor for place in locs])
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         """Return the text of a tick."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_BINS = 80
-ROUNDING = 1e-9
+EQUAL_VALUES = 1e-9
 """Relative difference of values that is drawn as none."""
 INTERACTION = 0.05
 """Difference of summed shares from 1 that is explained."""
@@ -97,7 +97,7 @@ def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], labe
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the limits of the intervals; a single one if only rounding distinguishes values."""
     low, high = float(values.min()), float(values.max())
-    if high - low <= ROUNDING * abs(high):
+    if high - low <= EQUAL_VALUES * abs(high):
         margin = 0.01 * abs(high) or 1.0
         return np.array([low - margin, high + margin])
     return np.histogram_bin_edges(
@@ -106,8 +106,10 @@ def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _of_patches(look: dict[str, Any]) -> dict[str, Any]:
-    kept = {key: look[key] for key in ("linestyle", "linewidth", "alpha", "zorder") if key in look}
-    return {"edgecolor": look["color"], "fill": False} | kept
+    of_line = {
+        key: look[key] for key in ("linestyle", "linewidth", "alpha", "zorder") if key in look
+    }
+    return {"edgecolor": look["color"], "fill": False} | of_line
 
 
 def _ecdf(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: str) -> None:
@@ -136,7 +138,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     rows = np.arange(len(shares))
     ax.set_yticks(rows, [_short(objectives.named(str(name))) for name in names.values])
     _fit_rows(ax, len(rows))
-    interact = any(abs(each) > INTERACTION for each in interaction.values)
+    interact = any(abs(share) > INTERACTION for share in interaction.values)
     set_title(
         ax,
         labels.name_of(result.engine),

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-PARTS = {"gas": "gas", "inertia": "masses", "torque": "sum"}
+PART_NAMES = {"gas": "gas", "inertia": "masses", "torque": "sum"}
 """Part of the torque → its name in a legend."""
 AMPLITUDE = units.headed("amplitude", "N·m")
 
@@ -62,7 +62,7 @@ def _torsional_excitation(
     place = inputs.whole("cylinder", cylinder, 1) - 1
     if place >= count:
         raise inputs.rejected("cylinder", cylinder, f"give 1 to {count}")
-    chosen = None if part is None else inputs.one_of("part", part, PARTS)
+    chosen = None if part is None else inputs.one_of("part", part, PART_NAMES)
     speeds = np.ravel(result.rpm)
     several = len(speeds) > 1
     logarithmic = several if log is None else inputs.flag("log", log)
@@ -75,11 +75,11 @@ def _torsional_excitation(
         where = ""
     else:
         fired = bool(result.crank_torque.gas[..., place, :].any())
-        drawn = [chosen] if chosen else list(PARTS) if fired else ["inertia"]
+        drawn = [chosen] if chosen else list(PART_NAMES) if fired else ["inertia"]
         curves = {name: _amplitudes(result, name)[0, place] for name in drawn}
         _over_order(ax, result.orders, curves, label, logarithmic, style)
         where = f"{number(float(speeds[0]))} rpm"
-    of = f" of {PARTS[chosen]}" if chosen in ("gas", "inertia") else ""
+    of = f" of {PART_NAMES[chosen]}" if chosen in ("gas", "inertia") else ""
     what = joined(f"torque{of} on the crank", f"cylinder {place + 1}", where, loads_of(result))
     set_title(ax, labels.name_of(result.engine), what)
     return ax
@@ -102,7 +102,7 @@ def _over_order(
 ) -> None:
     along = np.array(orders, dtype=np.float64)
     for (part, values), look in zip(curves.items(), series(ax, len(curves), style), strict=True):
-        name = ", ".join(filter(None, [label, PARTS[part]]))
+        name = ", ".join(filter(None, [label, PART_NAMES[part]]))
         stems(ax, along, values, label if label and len(curves) == 1 else name, look)
     beside_each_other(ax)
     scale_spectrum(ax, logarithmic=logarithmic, orders_given=False)

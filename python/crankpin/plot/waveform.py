@@ -75,7 +75,7 @@ def orbit(
 
 # --- sweep waveform ------------------------------------------------------------------------------
 
-KINDS = ("curves", "envelope")
+WAVEFORM_KINDS = ("curves", "envelope")
 BANDS = ((0.0, 1.0, 0.2, "smallest to largest"), (0.25, 0.75, 0.35, "middle half"))
 """Quantiles between which a band lies, its opacity, and its name."""
 
@@ -123,7 +123,7 @@ def _sweep_waveform(
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= DISTINCT else "envelope"
     if kind is not None:
-        chosen = inputs.one_of("kind", kind, KINDS)
+        chosen = inputs.one_of("kind", kind, WAVEFORM_KINDS)
     values, columns = np.asarray(getattr(result, name)), list(QUANTITIES[name].components)
     if ax is not None and name in PLANE_VECTORS:
         values, columns = np.linalg.norm(values, axis=-1, keepdims=True), ["length of the vector"]
@@ -255,7 +255,9 @@ def curves(
     """Draw a quantity over crank angle, a curve for each axis."""
     name = drawn_quantity(quantity, nonzero_in(result))
     drawn = series_of(result, name)
-    values = np.concatenate([by_component(result.read(each), name) for each in drawn], axis=-1)
+    values = np.concatenate(
+        [by_component(result.read(quantity), name) for quantity in drawn], axis=-1
+    )
     ax = axes_or_new(ax)
     where = joined(f"{number(result.rpm)} rpm", summed(result, name), loads_of(result, name))
     set_title(ax, labels.name_of(result.engine), where)

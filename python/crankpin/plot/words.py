@@ -61,15 +61,15 @@ def numbers(values: ArrayLike) -> list[str]:
 def short_names(names: Sequence[str]) -> tuple[list[str], str]:
     """Return names without the words they share at either end, and these words."""
     words = [name.split() for name in names]
-    shortest = min(len(each) for each in words) - 1
+    shortest = min(len(word) for word in words) - 1
     start = tail = 0
     if len(set(names)) > 1:
-        while start < shortest and len({each[start] for each in words}) == 1:
+        while start < shortest and len({word[start] for word in words}) == 1:
             start += 1
-        while tail < shortest - start and len({each[-1 - tail] for each in words}) == 1:
+        while tail < shortest - start and len({word[-1 - tail] for word in words}) == 1:
             tail += 1
     shared = words[0][:start] + words[0][len(words[0]) - tail :]
-    short = [" ".join(each[start : len(each) - tail]).strip(",;:") for each in words]
+    short = [" ".join(word[start : len(word) - tail]).strip(",;:") for word in words]
     return short, " ".join(shared).rstrip(",;:")
 
 
@@ -80,8 +80,8 @@ def nonzero_in(*results: object) -> Callable[[str], bool]:
     """Return a test of a name: whether one of the results has a quantity that is not all zero."""
 
     def exists(name: str) -> bool:
-        values = (getattr(each, name, None) for each in results)
-        return any(each is not None and np.any(getattr(each, "peak", each)) for each in values)
+        values = (getattr(result, name, None) for result in results)
+        return any(value is not None and np.any(getattr(value, "peak", value)) for value in values)
 
     return exists
 
@@ -145,6 +145,6 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
     bound = result.error_bound[quantity]
-    shown = units.convert(QUANTITIES[quantity].unit)
-    rest = f"{rounded(bound * shown.factor, 2)} {shown.unit}"
+    converted = units.convert(QUANTITIES[quantity].unit)
+    rest = f"{rounded(bound * converted.factor, 2)} {converted.unit}"
     return f"{text} (the rest ≤ {rest})" if bound else text

@@ -27,13 +27,13 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     """
     root = Path(folder)
     root.mkdir(parents=True, exist_ok=True)
-    listed: list[dict[str, Any]] = []
+    entries: list[dict[str, Any]] = []
     pages = []
     for name, engine in presets.presets().items():
         speed = speed_of(name, rpm)
         file = root / f"{name}.html"
         save_html(engine, file, rpm=speed)
-        listed.append(
+        entries.append(
             {
                 "href": file.name,
                 "figures": places(engine, speed),
@@ -42,7 +42,7 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
         )
         pages.append(file)
     index = root / "index.html"
-    call = f"gallery({as_json(listed)});"
+    call = f"gallery({as_json(entries)});"
     text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=HEAD)
     files.write(index, text)
     return [index, *pages]

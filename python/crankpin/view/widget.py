@@ -61,12 +61,12 @@ class EngineWidget(anywidget.AnyWidget):
         controls: Controls = None,
     ) -> None:
         self._engine = engine
-        known = figures(
+        numbers = figures(
             engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
         )
-        self._loads: dict[str, Any] = {"spectrum": spectrum, "inertia": known["flywheel"]}
+        self._loads: dict[str, Any] = {"spectrum": spectrum, "inertia": numbers["flywheel"]}
         super().__init__(**dataclasses.asdict(Settings.of(engine, rpm)))
-        self.set_trait("figures", known)
+        self.set_trait("figures", numbers)
         self._recompute()
         self.observe(lambda _: self._recompute(), names=list(SETTINGS))
 
@@ -123,12 +123,12 @@ class PowertrainWidget(anywidget.AnyWidget):
         controls: Controls = None,
     ) -> None:
         self._powertrain, self._frequency = powertrain, frequency
-        known = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
-        self._orders: list[Any] = known["mounted"]["orders"]
+        numbers = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
+        self._orders: list[Any] = numbers["mounted"]["orders"]
         states = [mounted.placed(mount) for mount in powertrain.mounts]
-        order = mounted.largest_order(powertrain, known["rpm"])
-        super().__init__(rpm=known["rpm"], order=order, mounts=states)
-        self.set_trait("figures", known)
+        order = mounted.largest_order(powertrain, numbers["rpm"])
+        super().__init__(rpm=numbers["rpm"], order=order, mounts=states)
+        self.set_trait("figures", numbers)
         self._recompute()
         self.observe(lambda _: self._recompute(), names=["rpm", "order", "mounts"])
 
@@ -145,8 +145,8 @@ class PowertrainWidget(anywidget.AnyWidget):
             mounted.speed(value)
         elif name == "order":
             if value not in (*self._orders, "all"):
-                listed = ", ".join(map(str, self._orders))
-                raise inputs.rejected("order", value, f'give "all", or one of {listed}')
+                orders_text = ", ".join(map(str, self._orders))
+                raise inputs.rejected("order", value, f'give "all", or one of {orders_text}')
         elif name == "mode":
             if value is not None and not 0 <= value < 6:
                 raise inputs.rejected("mode", value, "give 0 to 5, or None")

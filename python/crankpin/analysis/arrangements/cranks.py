@@ -77,7 +77,7 @@ class Crank:
         if self.bank_angle is None:
             return tuple(-throw % TURN for throw in self.throws)
         pairs = zip(self.throws, self.left, strict=True)
-        return tuple(each for a, b in pairs for each in (-a % TURN, (self.bank_angle - b) % TURN))
+        return tuple(angle for a, b in pairs for angle in (-a % TURN, (self.bank_angle - b) % TURN))
 
     def mirrored(self) -> Crank:
         """Return the engine seen in a mirror that exchanges left and right.
@@ -105,8 +105,8 @@ class Crank:
         """Pin splits as text: one if all are equal; empty for shared pins."""
         if not any(self.splits):
             return ""
-        listed = [f"{float(split):.6g}" for split in self.splits]
-        return listed[0] if len(set(listed)) == 1 else ", ".join(listed)
+        texts = [f"{float(split):.6g}" for split in self.splits]
+        return texts[0] if len(set(texts)) == 1 else ", ".join(texts)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -153,7 +153,7 @@ class Symmetries:
 def _size(crank: Crank) -> tuple[float, ...]:
     """Return the sort key of a crank, rounded to the accuracy of an optimiser's angles."""
     splits = [part for split in crank.splits for part in (abs(split), split)]
-    return tuple(round(float(each), 4) % TURN for each in (*crank.throws, *splits))
+    return tuple(round(float(angle), 4) % TURN for angle in (*crank.throws, *splits))
 
 
 # --- the orders in which given throws can follow each other ---------------------------------------
@@ -167,13 +167,13 @@ def throw_orders(angles: Sequence[Exact]) -> Iterator[tuple[Exact, ...]]:
     counts = Counter(angles)
     turns = [
         turn
-        for turn in ((each - angles[0]) % TURN for each in counts)
-        if Counter((each + turn) % TURN for each in angles) == counts
+        for turn in ((angle - angles[0]) % TURN for angle in counts)
+        if Counter((angle + turn) % TURN for angle in angles) == counts
     ]
     number = math.factorial(len(angles)) // math.prod(map(math.factorial, counts.values()))
     if number > MOST_CRANKS * len(turns):
         raise too_many(len(angles))
-    firsts = [each for each in counts if each == min((each + turn) % TURN for turn in turns)]
+    firsts = [angle for angle in counts if angle == min((angle + turn) % TURN for turn in turns)]
     for first in firsts:
         for rest in permutations(counts - Counter([first])):
             yield (first, *rest)

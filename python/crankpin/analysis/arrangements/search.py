@@ -68,9 +68,9 @@ class Arrangement(Item, Record):
         }
         for name, values in lists.items():
             # Searches make thousands, of tuples of floats.
-            kept = type(values) is tuple and all(type(value) is float for value in values)
-            listed = values if kept else tuple(inputs.listed_numbers(name, values))
-            object.__setattr__(self, name, listed)
+            is_plain = type(values) is tuple and all(type(value) is float for value in values)
+            floats = values if is_plain else tuple(inputs.listed_numbers(name, values))
+            object.__setattr__(self, name, floats)
         inputs.one_of("hold", hold, ("firing", "pins"))
         object.__setattr__(self, "hold", hold)
 
@@ -382,11 +382,12 @@ class ArrangementSearch(Tabled):
         """Table of the bank angles, with an arrangement for each."""
         rows = [
             (
-                *("-".join(f"{a:.6g}" for a in bank) for bank in (each.first_deg, each.second_deg)),
-                each.bank_angle_deg, each.counterweight, *each.second_order,
-                "yes" if each.near_circular else "no",
+                *("-".join(f"{a:.6g}" for a in bank)
+                  for bank in (arrangement.first_deg, arrangement.second_deg)),
+                arrangement.bank_angle_deg, arrangement.counterweight, *arrangement.second_order,
+                "yes" if arrangement.near_circular else "no",
             )
-            for each in self
+            for arrangement in self
         ]  # fmt: skip
         return Table.from_rows(
             f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too",
@@ -438,6 +439,6 @@ def _bank_angle(name: str, value: object) -> float:
 
 
 _MEASURES: dict[str, Callable[[Arrangement], float]] = {
-    "second_order": lambda found: max(found.second_order),
-    "counterweight": lambda found: found.counterweight,
+    "second_order": lambda arrangement: max(arrangement.second_order),
+    "counterweight": lambda arrangement: arrangement.counterweight,
 }

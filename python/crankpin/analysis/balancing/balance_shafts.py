@@ -128,13 +128,18 @@ def balance_shafts(
     """
     core = engine_core(engine)
     requests = _shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
-    checks.place(core, "x", *(each.x for each in requests), middle=0.0)
-    checks.place(core, "y", *(each.y for each in requests), middle=0.0)
-    checks.place(core, "planes", *(z for each in requests for z in each.planes or ()))
-    checks.place(core, "bearings", *(z for each in requests for z in each.bearings or ()))
+    checks.place(core, "x", *(request.x for request in requests), middle=0.0)
+    checks.place(core, "y", *(request.y for request in requests), middle=0.0)
+    checks.place(core, "planes", *(z for request in requests for z in request.planes or ()))
+    checks.place(core, "bearings", *(z for request in requests for z in request.bearings or ()))
     speed = inputs.optional_number("rpm", rpm)
     fitted, beyond = _core.fit_shafts(
-        core, [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in requests], speed
+        core,
+        [
+            (request.ratio, (request.x, request.y), request.planes, request.remove)
+            for request in requests
+        ],
+        speed,
     )
     if beyond is not None:
         warn(
@@ -146,11 +151,11 @@ def balance_shafts(
     fit = BalanceShafts(
         engine,
         tuple(
-            Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y)
-            for each, ((x, y), weights, _) in zip(requests, fitted, strict=True)
+            Shaft(request.ratio, tuple(map(unbalance_of, weights)), x, y)
+            for request, ((x, y), weights, _) in zip(requests, fitted, strict=True)
         ),
         tuple(Turning(*exerts) for _, _, exerts in fitted),
-        tuple(each.bearings or supports for each in requests),
+        tuple(request.bearings or supports for request in requests),
         speed,
     )
     warn_of_appearing(engine, with_more(core, shafts=fit.hardware))
@@ -182,13 +187,13 @@ def _shaft_requests(
     ratios: object, *, x: object, y: object, planes: object, bearings: object, remove: object
 ) -> list[ShaftRequest]:
     """Return the shafts to be fitted; :func:`crankpin.balance_shafts` documents the arguments."""
-    listed = _ratios(ratios)
-    count = len(listed)
-    removals = _removals(remove, listed)
+    shaft_ratios = _ratios(ratios)
+    count = len(shaft_ratios)
+    removals = _removals(remove, shaft_ratios)
     requests = list(
         map(
             ShaftRequest,
-            listed,
+            shaft_ratios,
             _coordinates("x", x, count),
             _coordinates("y", y, count),
             _places("planes", planes, count),
@@ -196,32 +201,32 @@ def _shaft_requests(
             removals,
         )
     )
-    for k, each in enumerate(requests):
-        if each.planes is not None and len(each.planes) < 2 and each.remove == "moment":
+    for k, request in enumerate(requests):
+        if request.planes is not None and len(request.planes) < 2 and request.remove == "moment":
             message = "a couple takes two planes; give two, or remove the force"
-            raise inputs.rejected(f"planes[{k}]", list(each.planes), message)
+            raise inputs.rejected(f"planes[{k}]", list(request.planes), message)
     return requests
 
 
 def _ratios(ratios: object) -> list[Order]:
     hint = 'give multiples of 1/2 other than 0, such as -1, "1/2" or [2, -2]'
     several = isinstance(ratios, Iterable) and not isinstance(ratios, str)
-    listed = inputs.items("ratios", ratios, hint) if several else [ratios]
-    numbers = [inputs.speed_ratio("ratios", each) for each in listed]
+    entries = inputs.items("ratios", ratios, hint) if several else [ratios]
+    numbers = [inputs.speed_ratio("ratios", value) for value in entries]
     if not 1 <= len(numbers) <= MOST_SHAFTS:
         raise inputs.faulty("ratios", f"has {len(numbers)} shafts", f"give 1 to {MOST_SHAFTS}")
-    for each in numbers:
-        if abs(each) > _core.HIGHEST_ORDER:
+    for number in numbers:
+        if abs(number) > _core.HIGHEST_ORDER:
             raise inputs.rejected("ratios", ratios, hint)
     return numbers
 
 
 def _removals(remove: object, ratios: list[Order]) -> list[Remove]:
     alike = isinstance(remove, str) or not isinstance(remove, Iterable)
-    listed = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
+    words = [remove] * len(ratios) if alike else _each("remove", remove, len(ratios))
     removals: dict[Order, Remove] = {}
-    for ratio, each in zip(ratios, listed, strict=True):
-        word = cast("Remove", inputs.one_of("remove", each, REMOVE))
+    for ratio, value in zip(ratios, words, strict=True):
+        word = cast("Remove", inputs.one_of("remove", value, REMOVE))
         if removals.setdefault(ratio, word) != word:
             hint = "shafts of one ratio share their task; give them the same"
             raise inputs.rejected("remove", remove, hint)
@@ -229,47 +234,47 @@ def _removals(remove: object, ratios: list[Order]) -> list[Remove]:
 
 
 def _each(name: str, values: object, count: int) -> list[Any]:
-    listed = inputs.items(name, values, f"give one for each of {count} shafts")
-    if len(listed) != count:
+    entries = inputs.items(name, values, f"give one for each of {count} shafts")
+    if len(entries) != count:
         raise inputs.faulty(
-            name, f"has {len(listed)} entries", f"give one for each of {count} shafts"
+            name, f"has {len(entries)} entries", f"give one for each of {count} shafts"
         )
-    return listed
+    return entries
 
 
 def _coordinates(name: str, values: object, count: int) -> list[float | None]:
-    listed = _each(name, values, count) if isinstance(values, Iterable) else [values] * count
-    return [None if each is None else inputs.finite(name, each) for each in listed]
+    numbers = _each(name, values, count) if isinstance(values, Iterable) else [values] * count
+    return [None if value is None else inputs.finite(name, value) for value in numbers]
 
 
 def _places(name: str, values: object, count: int) -> list[tuple[float, ...] | None]:
     if values is None:
         return [None] * count
     hint = "give places along the crank, m, such as [0.0, 0.3], or a list of these"
-    listed = inputs.items(name, values, hint)
-    if any(each is None or isinstance(each, Iterable) for each in listed):
-        each_has = _each(name, listed, count)
+    entries = inputs.items(name, values, hint)
+    if any(value is None or isinstance(value, Iterable) for value in entries):
+        each_has = _each(name, entries, count)
     else:
-        each_has = [listed] * count
+        each_has = [entries] * count
     intervals: list[tuple[float, ...] | None] = []
-    for k, each in enumerate(each_has):
-        if each is None:
+    for k, place in enumerate(each_has):
+        if place is None:
             intervals.append(None)
             continue
         numbers = [
-            inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, hint)
+            inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", place, hint)
         ]
         places = tuple(sorted(numbers))
         if not places or len(set(places)) < len(places):
-            raise inputs.rejected(f"{name}[{k}]", each, "give different places")
+            raise inputs.rejected(f"{name}[{k}]", place, "give different places")
         intervals.append(places)
     return intervals
 
 
 def _bearings(bearings: object, count: int) -> list[tuple[float, float] | None]:
     pairs: list[tuple[float, float] | None] = []
-    for k, each in enumerate(_places("bearings", bearings, count)):
-        if each is not None and len(each) != 2:
-            raise inputs.rejected(f"bearings[{k}]", list(each), "give the places of two bearings")
-        pairs.append(None if each is None else (each[0], each[1]))
+    for k, pair in enumerate(_places("bearings", bearings, count)):
+        if pair is not None and len(pair) != 2:
+            raise inputs.rejected(f"bearings[{k}]", list(pair), "give the places of two bearings")
+        pairs.append(None if pair is None else (pair[0], pair[1]))
     return pairs

@@ -149,25 +149,28 @@ def balancer_options(
     )
     weights = _counterweights(engine, places_of_weights) if with_weights else ()
     sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most, speed)
-    swept = sweep([each.fitted for each in sets], rpm=speed, orders=orders, rtol=rtol)
-    values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
+    swept = sweep([candidate.fitted for candidate in sets], rpm=speed, orders=orders, rtol=rtol)
+    values = np.column_stack([objective.values(swept)[:, 0] for objective in objectives])
     slack = TIED * np.abs(values).max(axis=0)
-    start = {each.label: value for each, value in zip(objectives, values[0].tolist(), strict=True)}
+    start = {
+        objective.label: value
+        for objective, value in zip(objectives, values[0].tolist(), strict=True)
+    }
     targets = {
         name: limit * start[name] if is_relative else limit for name, limit in limits.items()
     }
-    allowed = np.array([targets.get(each.label, math.inf) for each in objectives])
+    allowed = np.array([targets.get(objective.label, math.inf) for objective in objectives])
     reaches = (values <= allowed + slack).all(axis=1) & bool(targets)
-    hardware = np.array([(len(each.shafts), each.unbalance) for each in sets])
+    hardware = np.array([(len(candidate.shafts), candidate.unbalance) for candidate in sets])
     front = _front(
         np.hstack([hardware, values]), np.append([0.0, TIED * hardware[:, 1].max()], slack)
     )
     results = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
     options = tuple(
-        changed(each, values=tuple(row), on_pareto_front=best, reaches=enough)
-        for each, row, best, enough in results
+        changed(candidate, values=tuple(row), on_pareto_front=best, reaches=enough)
+        for candidate, row, best, enough in results
     )
-    bare = tuple(each.bare() for each in objectives)
+    bare = tuple(objective.bare() for objective in objectives)
     return BalancerOptions(engine, speed, bare, tuple(targets.items()), options)
 
 
@@ -212,8 +215,8 @@ def _counterweights(engine: Engine, planes: Mapping[str, Place]) -> tuple[Unbala
     # As of shafts, a moment counts as much as a force over half the distance of the cylinders.
     length = float(np.ptp(engine.z)) / 2.0 or None
     fit = Fit("external", (("force", None), ("moment", None)), "squares", length)
-    found = fitted(engine, planes, dict.fromkeys(planes, math.inf), None, fit)
-    return tuple(weight for _, weight in found.unbalances)
+    fit_of_planes = fitted(engine, planes, dict.fromkeys(planes, math.inf), None, fit)
+    return tuple(weight for _, weight in fit_of_planes.unbalances)
 
 
 def balancer_sets(
@@ -230,16 +233,16 @@ def balancer_sets(
     """
     removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
     by_shafts = [1]
-    for listed in removals.values():
-        one_more = [0, *(len(listed) * number for number in by_shafts)]
+    for alternatives in removals.values():
+        one_more = [0, *(len(alternatives) * number for number in by_shafts)]
         by_shafts = list(map(sum, itertools.zip_longest(by_shafts, one_more, fillvalue=0)))
     count = sum(by_shafts[: most_shafts + 1])
     if count > MOST_SETS:
         hint = f"give fewer orders or most_shafts, for {MOST_SETS} at most"
         raise inputs.faulty("shaft_orders", f"make {count} sets of shafts", hint)
     choices: list[list[Part | None]] = [[None] for _ in removals]
-    for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
-        for what in listed:
+    for parts, (ratio, alternatives) in zip(choices, removals.items(), strict=True):
+        for what in alternatives:
             with suppressed():  # of sets that are compared
                 fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, rpm=rpm)
             parts.append(Part(fit[0], what))
@@ -250,18 +253,18 @@ def balancer_sets(
     sets = []
     for chosen in _choices(choices, most_shafts):
         wanted = [
-            (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
-            for each in chosen
+            (choice.shaft.ratio, places.get(choice.shaft.ratio, (None, None)), None, choice.remove)
+            for choice in chosen
         ]
         placed, _ = _core.fit_shafts(engine._core, wanted, rpm)
         shafts = tuple(
-            dataclasses.replace(each.shaft, x=x, y=y)
-            for each, ((x, y), *_) in zip(chosen, placed, strict=True)
+            dataclasses.replace(choice.shaft, x=x, y=y)
+            for choice, ((x, y), *_) in zip(chosen, placed, strict=True)
         )
         for weights, other in weighted.items():
             with_shafts = other.with_shafts([*engine.shafts, *shafts])
             sets.append(BalancerOption(_name(chosen, weights), weights, shafts, with_shafts))
-    return sorted(sets, key=lambda each: (len(each.shafts), each.unbalance))
+    return sorted(sets, key=lambda hardware: (len(hardware.shafts), hardware.unbalance))
 
 
 def _choices(choices: Sequence[Sequence[Part | None]], most: int) -> Iterator[list[Part]]:
@@ -269,8 +272,8 @@ def _choices(choices: Sequence[Sequence[Part | None]], most: int) -> Iterator[li
     if not choices:
         yield []
         return
-    for each in choices[0]:
-        parts = [] if each is None else [each]
+    for choice in choices[0]:
+        parts = [] if choice is None else [choice]
         if len(parts) <= most:
             for others in _choices(choices[1:], most - len(parts)):
                 yield parts + others
@@ -285,9 +288,9 @@ def _removals(turning_parts: Turning) -> tuple[Remove, ...]:
 
 def _name(parts: Sequence[Part], weights: tuple[Unbalance, ...]) -> str:
     words = [
-        f"{each.shaft.ratio:+g}".replace("-", "−")
-        + ("" if each.remove == "both" else f" ({each.remove} alone)")
-        for each in parts
+        f"{part.shaft.ratio:+g}".replace("-", "−")
+        + ("" if part.remove == "both" else f" ({part.remove} alone)")
+        for part in parts
     ]
     shafts = f"shaft{'s' * (len(words) > 1)} {', '.join(words)}" if words else ""
     return " + ".join(filter(None, ["counterweights" if weights else "", shafts])) or "nothing"
@@ -301,11 +304,11 @@ def _objectives(
 ) -> tuple[list[Objective], dict[str, float]]:
     """Return the objectives, and the targets as they were given."""
     objectives = listed_objectives(by)
-    names = [each.label for each in objectives]
+    names = [objective.label for objective in objectives]
     if target is None:
         return objectives, {}
     if not isinstance(target, Mapping):
-        if one_unit and len({each.unit for each in objectives}) > 1:
+        if one_unit and len({objective.unit for objective in objectives}) > 1:
             hint = "by has objectives of several units; give objective → value, or relative=True"
             raise inputs.rejected("target", target, hint)
         return objectives, dict.fromkeys(names, _limit("target", target))
@@ -334,7 +337,7 @@ def _axes(places: object, ratios: Sequence[Order]) -> Mapping[float, Axis]:
         x_and_y = inputs.items(name, place, hint)
         if len(x_and_y) != 2:
             raise inputs.rejected(name, place, hint)
-        x, y = (inputs.optional_number(name, each) for each in x_and_y)
+        x, y = (inputs.optional_number(name, value) for value in x_and_y)
         speed = inputs.speed_ratio(name, ratio)
         if speed not in ratios:
             hint = f"ratios of the shafts compared are {', '.join(map(str, ratios))}"

@@ -45,8 +45,8 @@ class BalancerOption(Item):
     @cached_property
     def unbalance(self) -> float:
         """Sum of the amounts of all unbalances that were added, kg·m."""
-        on_shafts = (weight for each in self.shafts for weight in each.unbalances)
-        return sum(each.amount for each in (*self.counterweights, *on_shafts))
+        on_shafts = (weight for shaft in self.shafts for weight in shaft.unbalances)
+        return sum(counterweight.amount for counterweight in (*self.counterweights, *on_shafts))
 
     @property
     def hardware(self) -> tuple[Unbalance | Shaft, ...]:
@@ -94,7 +94,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
         Respects are the number of shafts, the sum of unbalances and the value of each objective.
         """
-        return tuple(each for each in self.options if each.on_pareto_front)
+        return tuple(option for option in self.options if option.on_pareto_front)
 
     @property
     def smallest(self) -> BalancerOption | None:
@@ -102,7 +102,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
 
         None if no set does, or no target was given.
         """
-        return next((each for each in self.options if each.reaches), None)
+        return next((option for option in self.options if option.reaches), None)
 
     @property
     def fitted(self) -> Engine:
@@ -149,15 +149,15 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         InputError
             If there is no such objective.
         """
-        names = {each.label: each for each in self.objectives}
+        names = {objective.label: objective for objective in self.objectives}
         chosen = [inputs.one_of("objectives", name, names) for name in objectives] or names
         rows = [
             (
-                each.name, len(each.shafts), each.unbalance, each.on_pareto_front, each.reaches,
-                objective.label, value, objective.unit,
+                option.name, len(option.shafts), option.unbalance, option.on_pareto_front,
+                option.reaches, objective.label, value, objective.unit,
             )
-            for each in self.options
-            for objective, value in zip(self.objectives, each.values, strict=True)
+            for option in self.options
+            for objective, value in zip(self.objectives, option.values, strict=True)
             if objective.label in chosen
         ]  # fmt: skip
         heads = (
@@ -175,18 +175,18 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
         engine = labels.name_of(self.engine)
         front = self.pareto_front[:SHOWN]
         columns = {
-            "set": [each.name for each in front],
-            "shafts": [str(len(each.shafts)) for each in front],
+            "set": [option.name for option in front],
+            "shafts": [str(len(option.shafts)) for option in front],
         }
         if self.targets:
-            columns["target"] = ["reached" if each.reaches else "missed" for each in front]
-        heads = [(each.head, each.unit) for each in self.objectives]
+            columns["target"] = ["reached" if option.reaches else "missed" for option in front]
+        heads = [(objective.head, objective.unit) for objective in self.objectives]
         return Table.from_rows(
             f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against residual, "
             f"{len(self.pareto_front)} of {len(self)} sets on the Pareto front",
             [*columns, ("unbalance", "kg·m"), *heads],
             list(zip(*columns.values(), strict=True)),
-            np.array([(each.unbalance, *each.values) for each in front]),
+            np.array([(option.unbalance, *option.values) for option in front]),
             note=self._note(),
             loads=self.loads_counted,
         )
@@ -200,7 +200,7 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     def _note(self) -> str:
         if not self.targets:
             return ""
-        by_label = {each.label: each for each in self.objectives}
+        by_label = {objective.label: objective for objective in self.objectives}
         wanted = ", ".join(
             f"{by_label[label].head} ≤ {value:.5g} {by_label[label].unit}".strip()
             for label, value in self.targets

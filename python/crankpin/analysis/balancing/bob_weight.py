@@ -339,17 +339,17 @@ class BobWeight(Tabled):
     def _by_factor(self) -> Table:
         """Return the residual at the usual factors, and at those of a straight line."""
         remarks = remarks_by_factor(TABULATED, self._remarkable())
-        listed = sorted(remarks)
+        factors = sorted(remarks)
         # An engine without force or moment of order 1 has no columns of it.
         quantities = [name for name in PLANE_VECTORS if self._first_order.exists(name)]
         header: list[str | tuple[str, str]] = ["factor", ""]
         columns = []
         for name in quantities or ["moment"]:
-            longest, shortest = self.half_axes(name, listed)
+            longest, shortest = self.half_axes(name, factors)
             unit = QUANTITIES[name].unit_over_square
             header += [(f"{name}, longest", unit), ("shortest", unit)]
             columns += [longest, abs(shortest)]
-        names = [(f"{factor:.6g}", remarks[factor]) for factor in listed]
+        names = [(f"{factor:.6g}", remarks[factor]) for factor in factors]
         title = "Residual of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
 
@@ -423,7 +423,7 @@ class BobWeight(Tabled):
         shares = inputs.vector("factors", self.factor if factors is None else factors)
         check_factor("factors", shares)
         speed = self.engine.balance(rpm, orders=[1]).rpm  # which checks it
-        named = [inputs.text("sides", each) for each in inputs.items("sides", sides, SIDES)]
+        named = [inputs.text("sides", side) for side in inputs.items("sides", sides, SIDES)]
         if len(named) != 2:
             raise inputs.rejected("sides", sides, SIDES)
         if planes is None:
@@ -442,8 +442,8 @@ class BobWeight(Tabled):
             speed,
             (named[0], named[1]),
             tuple(
-                (name, place.z, each, place.crank)
-                for (name, place), each in zip(places.items(), radii, strict=True)
+                (name, place.z, at_radius, place.crank)
+                for (name, place), at_radius in zip(places.items(), radii, strict=True)
             ),
             weights,
         )
@@ -456,12 +456,12 @@ def _vector(quantity: object) -> str:
 
 def _positive(name: str, values: ArrayLike, count: int, hint: str) -> list[Any]:
     """Return one number above zero for each item; a scalar is that of all."""
-    listed = inputs.per_item(name, values, count)
-    if len(listed) != count:
-        raise inputs.faulty(name, f"has {len(listed)} figures", f"give one, or {count}")
-    if not all(0.0 < each <= 1e6 for each in listed):
+    numbers = inputs.per_item(name, values, count)
+    if len(numbers) != count:
+        raise inputs.faulty(name, f"has {len(numbers)} figures", f"give one, or {count}")
+    if not all(0.0 < radius <= 1e6 for radius in numbers):
         raise inputs.rejected(name, values, hint)
-    return listed
+    return numbers
 
 
 def _numbers(pin: Crankpin) -> str:

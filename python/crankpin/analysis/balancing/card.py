@@ -39,9 +39,9 @@ PARTS = {
 RECIPROCATING, ROTATING = "reciprocating", "rotating"
 RODS = {"small end": RECIPROCATING, "big end": ROTATING}
 """End of a rod → what it counts as."""
-G_MM = 1e6
+G_MM_PER_KG_M = 1e6
 """Gram millimetres to a kg·m."""
-ROUNDING = 1e-12
+EQUAL_FACTORS = 1e-12
 """Differences of factors, and parts of the longest vector, that are rounding."""
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -89,7 +89,7 @@ def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
     if not isinstance(parts, Mapping):
         hint = f"give a mapping of parts to kilograms: {', '.join(PARTS)}"
         raise inputs.rejected("parts", parts, hint)
-    found = {}
+    by_kind = {}
     for name, mass in parts.items():
         part = inputs.one_of("parts", str(name).replace("_", " "), PARTS)
         masses = np.array(inputs.per_item(f"parts[{name!r}]", mass, len(engine)))
@@ -98,8 +98,8 @@ def weighed(engine: Engine, parts: object) -> dict[str, NDArray[np.float64]]:
             raise inputs.faulty(f"parts[{name!r}]", f"has {len(masses)} masses", hint)
         if not ((masses >= 0.0) & (masses <= 1e6)).all():
             raise inputs.rejected(f"parts[{name!r}]", mass, "give kilograms, 0 or more")
-        found[part] = masses
-    return {part: found[part] for part in PARTS if part in found}
+        by_kind[part] = masses
+    return {part: by_kind[part] for part in PARTS if part in by_kind}
 
 
 def from_rods(
@@ -142,10 +142,10 @@ def with_parts(engine: Engine, parts: Mapping[str, NDArray[np.float64]]) -> Engi
     # To the nanogram, which leaves 0.65 + 0.18 its decimals.
     rounded = {kind: masses.round(12).tolist() for kind, masses in sums.items()}
     if RECIPROCATING in rounded:
-        each = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
-        moving = [one.replace(reciprocating_mass=mass) for one, mass in each]
-        kept = rounded.get(ROTATING, engine.rotating_mass.tolist())
-        return engine.replace(cylinder=moving, rotating_mass=kept)
+        pairs = zip(engine.cylinders, rounded[RECIPROCATING], strict=True)
+        moving = [one.replace(reciprocating_mass=mass) for one, mass in pairs]
+        rotating = rounded.get(ROTATING, engine.rotating_mass.tolist())
+        return engine.replace(cylinder=moving, rotating_mass=rotating)
     return engine.replace(rotating_mass=rounded[ROTATING]) if rounded else engine
 
 
@@ -156,7 +156,7 @@ def remarks_by_factor(
     words: dict[float, list[str]] = {factor: [] for factor in factors}
     for factor, text in remarks:
         # 0.5 comes out as 0.49999999999999994 at times.
-        near = next((each for each in words if abs(each - factor) < ROUNDING), factor)
+        near = next((marked for marked in words if abs(marked - factor) < EQUAL_FACTORS), factor)
         words.setdefault(near, []).append(text)
     return {factor: ", ".join(filter(None, texts)) for factor, texts in words.items()}
 
@@ -185,12 +185,12 @@ class Card(Tabled):
     def table(self) -> Table:
         """Table of the weighed parts."""
         bob, engine = self.bob, self.bob.engine
-        shares = f"{', '.join(f'{100.0 * each:.6g}' for each in self.factors)} %"
+        shares = f"{', '.join(f'{100.0 * factor:.6g}' for factor in self.factors)} %"
         rows: list[tuple[str, str, str, NDArray[np.float64]]] = [
             (part, PARTS[part], shares if PARTS[part] == RECIPROCATING else "100 %", masses)
             for part, masses in bob.parts.items()
         ]
-        moving = np.array([each.reciprocating_mass for each in engine.cylinders])
+        moving = np.array([cylinder.reciprocating_mass for cylinder in engine.cylinders])
         for kind, share, masses in (
             (RECIPROCATING, shares, moving),
             (ROTATING, "100 %", engine.rotating_mass),
@@ -221,7 +221,7 @@ class Card(Tabled):
         oil = np.full(len(bob.crankpins), bob.oil)
         masses = [bob.rotating, bob.reciprocating, oil, *map(bob._mass_at, self.factors)]
         heads = ["rotating", "reciprocating", "oil"]
-        heads += [f"at {100.0 * each:.6g} %" for each in self.factors]
+        heads += [f"at {100.0 * factor:.6g} %" for factor in self.factors]
         return Table.from_rows(
             "Bob weight of each crankpin",
             ["cylinders", ("crankpin", "°"), *((head, "g") for head in heads)],
@@ -244,17 +244,17 @@ class Card(Tabled):
     def _residual(self) -> Table:
         bob, factors = self.bob, sorted(self._by_factor)
         columns = [
-            Column("factor", tuple(100.0 * each for each in factors), "%"),
-            Column("", tuple(self._by_factor[each] for each in factors)),
+            Column("factor", tuple(100.0 * factor for factor in factors), "%"),
+            Column("", tuple(self._by_factor[factor] for factor in factors)),
         ]
         omega_squared = _core.angular_speed(self.rpm) ** 2
         for name in PLANE_VECTORS:
             if not bob._first_order.exists(name):
                 continue
-            longest, shortest = (omega_squared * each for each in bob.half_axes(name, factors))
-            shortest[abs(shortest) < ROUNDING * longest.max()] = 0.0
+            longest, shortest = (omega_squared * axis for axis in bob.half_axes(name, factors))
+            shortest[abs(shortest) < EQUAL_FACTORS * longest.max()] = 0.0
             unit = QUANTITIES[name].unit
-            words = tuple(self._direction(name, each) for each in factors)
+            words = tuple(self._direction(name, factor) for factor in factors)
             columns += [
                 Column(f"{name}, longest", longest, unit, digits=4),
                 Column("shortest", abs(shortest), unit, digits=4),
@@ -294,7 +294,7 @@ class Card(Tabled):
         rows: list[tuple[Any, ...]] = []
         for factor in self.factors:
             share = f"{100.0 * factor:.6g} %"
-            for each in _core.corrections(
+            for weight in _core.corrections(
                 core,
                 factor,
                 list(zip(places, cranks, strict=True)),
@@ -302,9 +302,10 @@ class Card(Tabled):
                 self.bob.oil,
                 self.balanced_to,
             ):
-                plane, mass, slug = each["plane"], each["mass"], each["heavy_metal"]
-                row: tuple[Any, ...] = (share, names[plane], places[plane], G_MM * each["amount"])
-                row += (each["add_at_deg"], each["drill_at_deg"])
+                plane, mass, slug = weight["plane"], weight["mass"], weight["heavy_metal"]
+                amount = G_MM_PER_KG_M * weight["amount"]
+                row: tuple[Any, ...] = (share, names[plane], places[plane], amount)
+                row += (weight["add_at_deg"], weight["drill_at_deg"])
                 if radii is not None and mass is not None and slug is not None:
                     row += (1e3 * radii[plane], 1e3 * mass, 1e3 * slug)
                 rows.append(row)

@@ -141,15 +141,15 @@ def counterweights(
     checks.bounds(core, limits.values())
     checks.place(core, "length", fit.length, middle=0.0)
     allowed = correction_planes.angles(names, angles_deg)
-    found = Counterweights(
+    result = Counterweights(
         engine,
         tuple((name, place.z) for name, place in places.items()),
         fit,
         *fitted(engine, places, limits, allowed, fit),
         tuple(place.crank for place in places.values()),
     )
-    warn_of_appearing(engine, with_more(core, found.hardware))
-    return found
+    warn_of_appearing(engine, with_more(core, result.hardware))
+    return result
 
 
 class Counterweights(Tabled):
@@ -268,9 +268,9 @@ class Counterweights(Tabled):
             return True
         # The engine's parts are sums over its bays, if all that rotates is in one of them, and
         # forces of bays have moments about the engine's plane.
-        listed = bays(self.engine)
+        all_bays = bays(self.engine)
         inside = all(
-            any(bay.holds(weight.z) for bay in listed) for weight in self.engine.counterweights
+            any(bay.holds(weight.z) for bay in all_bays) for weight in self.engine.counterweights
         )
         # What pistons of other cranks exert in a sense is in none of its bays.
         inside = inside and not self.engine.shafts and len(self.engine._core.cranks[0]) == 1
@@ -305,8 +305,8 @@ class Counterweights(Tabled):
         """Places, amounts and angles of the weights."""
         heads = ("plane", ("z", "m"), ("amount", "kg·m"), ("angle", "°"))
         rows = [
-            (plane, each.z, each.amount, inputs.degrees(each.angle_deg))
-            for (plane, _), each in zip(self.by_plane, self.hardware, strict=True)
+            (plane, weight.z, weight.amount, inputs.degrees(weight.angle_deg))
+            for (plane, _), weight in zip(self.by_plane, self.hardware, strict=True)
         ]
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 SHAKEN = ("force", "moment", "torque")
 """Quantities that shafts change."""
-EQUAL = 1e-9
+EQUAL_FORCES = 1e-9
 """Relative difference up to which the forces of a pair are equal."""
 
 
@@ -87,22 +87,22 @@ class BalanceShafts(Listed[Shaft], Tabled):
     @property
     def orders(self) -> tuple[Order, ...]:
         """Orders that the shafts act on, ascending."""
-        return tuple(sorted({abs(each.ratio) for each in self.hardware}))
+        return tuple(sorted({abs(shaft.ratio) for shaft in self.hardware}))
 
     @property
     def unbalance(self) -> float:
         """Sum of the amounts of all unbalances of the shafts, kg·m."""
-        return math.fsum(weight.amount for each in self.hardware for weight in each.unbalances)
+        return math.fsum(weight.amount for shaft in self.hardware for weight in shaft.unbalances)
 
     @property
     def exerted_force(self) -> NDArray[np.complex128]:
         """Force that each shaft exerts, over ω²: x + iy at θ = 0, kg·m, (n_shafts,)."""
-        return read_only(np.array([each.force for each in self.exerts]))
+        return read_only(np.array([force.force for force in self.exerts]))
 
     @property
     def exerted_moment(self) -> NDArray[np.complex128]:
         """Moment that each shaft exerts, over ω²: x + iy at θ = 0, kg·m², (n_shafts,)."""
-        return read_only(np.array([each.moment for each in self.exerts]))
+        return read_only(np.array([force.moment for force in self.exerts]))
 
     @cached_property
     def residual(self) -> Balance:
@@ -138,8 +138,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
         heights = {}
         for order in self.orders:
             pair = [
-                (shaft.ratio, each.force)
-                for shaft, each in zip(self.hardware, self.exerts, strict=True)
+                (shaft.ratio, force.force)
+                for shaft, force in zip(self.hardware, self.exerts, strict=True)
                 if abs(shaft.ratio) == order
             ]
             if _is_a_pair(pair):
@@ -230,18 +230,19 @@ class BalanceShafts(Listed[Shaft], Tabled):
     def _loads(self) -> Table:
         columns = [
             Column("shaft", tuple(str(k) for k in range(1, len(self) + 1))),
-            Column("order", tuple(str(abs(each.ratio)) for each in self.hardware)),
+            Column("order", tuple(str(abs(shaft.ratio)) for shaft in self.hardware)),
             Column(
-                "part", tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware)
+                "part",
+                tuple("forward" if shaft.ratio > 0 else "backward" for shaft in self.hardware),
             ),
             Column("force", abs(self.exerted_force), "kg·m"),
             Column("moment", abs(self.exerted_moment), "kg·m²"),
         ]
-        known = [each for each in self.bearings if each is not None]
-        if len(known) == len(self):
+        supported = [pair for pair in self.bearings if pair is not None]
+        if len(supported) == len(self):
             front, rear = abs(self.bearing_loads(labels.UNIT_RPM)).T.tolist()
             columns += [
-                Column("bearings apart", tuple(b - a for a, b in known), "m"),
+                Column("bearings apart", tuple(b - a for a, b in supported), "m"),
                 Column("front load", tuple(front), "kg·m"),
                 Column("rear load", tuple(rear), "kg·m"),
             ]
@@ -250,12 +251,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     def _stays(self) -> Table:
         rows = []
-        for each in self.parts():
-            kind = QUANTITIES[each.quantity]
+        for part in self.parts():
+            kind = QUANTITIES[part.quantity]
             quantity = units.headed(kind.words, kind.unit_over_square)
-            rows.append((str(each.order), quantity, each.part, each.before, each.after))
+            rows.append((str(part.order), quantity, part.part, part.before, part.after))
         heads = ["order", "quantity", "part", "before", "after"]
-        row_units = [QUANTITIES[each.quantity].unit_over_square for each in self.parts()]
+        row_units = [QUANTITIES[part.quantity].unit_over_square for part in self.parts()]
         return Table.from_rows("Residual, over ω²", heads, rows, row_units=row_units)
 
     def parts(self) -> tuple[Part, ...]:
@@ -270,10 +271,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
         square = inputs.angular_speed(states[0].rpm) ** 2
         parts = []
         for order, quantity in itertools.product(self.orders, SHAKEN):
-            pair = [getattr(each[order], quantity) for each in states]
+            pair = [getattr(state[order], quantity) for state in states]
             planar = QUANTITIES[quantity].planar
             for part in ("forward", "backward") if planar else ("",):
-                sizes = [float(abs(getattr(each, part or "phasor"))) / square for each in pair]
+                sizes = [
+                    float(abs(getattr(reading, part or "phasor"))) / square for reading in pair
+                ]
                 parts.append(Part(order, quantity, part, *sizes))
         return tuple(parts)
 
@@ -283,4 +286,4 @@ def _is_a_pair(forces: list[tuple[Order, complex]]) -> bool:
     if len(forces) != 2 or forces[0][0] != -forces[1][0]:
         return False
     sizes = [abs(force) for _, force in forces]
-    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL * max(sizes)
+    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL_FORCES * max(sizes)

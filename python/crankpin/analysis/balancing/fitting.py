@@ -55,8 +55,8 @@ class Fit:
     ) -> Fit:
         """Return the options, or raise an InputError that names the argument at fault."""
         wanted = inputs.one_of("target", target, TARGETS)
-        kept = _kept(keep)
-        if wanted == "external" and kept is not None:
+        parts = _kept(keep)
+        if wanted == "external" and parts is not None:
             hint = "leave it out: external weights remove these sums"
             raise inputs.rejected("keep", keep, hint)
         comparing = inputs.optional_number("length", length)
@@ -67,29 +67,29 @@ class Fit:
             tuple(_parts(factor).items()),
             inputs.one_of("minimise", minimise, ["squares", "largest"]),  # type: ignore[arg-type]
             comparing,
-            kept,
+            parts,
         )
 
 
-def _kept(given: object) -> tuple[str, ...] | None:
-    if isinstance(given, str):
-        inputs.one_of("keep", given, ["vanishing"])
+def _kept(value: object) -> tuple[str, ...] | None:
+    if isinstance(value, str):
+        inputs.one_of("keep", value, ["vanishing"])
         return None
     hint = 'give "vanishing", or a list of "force" and "moment", which may be empty'
-    names = inputs.items("keep", given, hint)
+    names = inputs.items("keep", value, hint)
     return tuple(inputs.one_of("keep", name, PLANE_VECTORS) for name in names)
 
 
-def _parts(given: object) -> dict[str, float | None]:
-    if given is None or not isinstance(given, Mapping):
-        by_name = dict.fromkeys(PLANE_VECTORS, given)
+def _parts(value: object) -> dict[str, float | None]:
+    if value is None or not isinstance(value, Mapping):
+        by_name = dict.fromkeys(PLANE_VECTORS, value)
     else:
-        by_name = dict(given)
+        by_name = dict(value)
         for name in by_name:
             inputs.one_of("factor", name, PLANE_VECTORS)
         if not by_name:
             hint = 'give a number, or {"force": 0.5, "moment": 0.5}'
-            raise inputs.rejected("factor", given, hint)
+            raise inputs.rejected("factor", value, hint)
     parts = {name: inputs.optional_number("factor", part) for name, part in by_name.items()}
     for part in parts.values():
         if part is not None:
@@ -112,11 +112,11 @@ class Fitted(NamedTuple):
 
 def check_factor(name: str, factor: ArrayLike) -> None:
     """Raise an InputError unless factors are shares of the reciprocating mass."""
-    listed = np.asarray(factor)
-    if not listed.size or not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+    factors = np.asarray(factor)
+    if not factors.size or not ((factors >= 0.0) & (factors <= LARGEST_FACTOR)).all():
         hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
-        if not listed.ndim and LARGEST_FACTOR < listed <= 100.0:
-            hint += f"; {listed:g} % is {listed / 100.0:g}"
+        if not factors.ndim and LARGEST_FACTOR < factors <= 100.0:
+            hint += f"; {factors:g} % is {factors / 100.0:g}"
         raise inputs.rejected(name, factor, hint)
 
 
@@ -148,7 +148,7 @@ def fitted(
         allowed = [
             np.deg2rad([inputs.degrees(angle) for angle in angles[name]]).tolist() for name in names
         ]
-    found, exact, missing = _core.fit_weights(
+    weights, exact, missing = _core.fit_weights(
         engine_core(engine),
         list(planes.values()),
         [bounds[name] for name in names],
@@ -160,8 +160,8 @@ def fitted(
         fit.keep,
     )
     unbalances = []
-    for place, angle, each in found:
-        weight = unbalance_of(each)
+    for place, angle, unbalance in weights:
+        weight = unbalance_of(unbalance)
         if angles is not None:
             weight = weight.replace(angle_deg=angles[names[place]][angle])
         unbalances.append((names[place], weight))
@@ -176,9 +176,9 @@ def left_by(engine: Engine, factor: float) -> Engine:
 def _check_between(engine: Engine, planes: Mapping[str, Place], target: Target) -> None:
     """Raise an InputError of a plane that is in no bay."""
     for name, (z, crank) in planes.items():
-        listed = [bay for bay in bays(engine) if bay.crank == crank]
-        if listed and not any(bay.holds(z, crank) for bay in listed):
-            ends = f"{listed[0].bearings[0]:.6g} to {listed[-1].bearings[1]:.6g} m"
+        of_crank = [bay for bay in bays(engine) if bay.crank == crank]
+        if of_crank and not any(bay.holds(z, crank) for bay in of_crank):
+            ends = f"{of_crank[0].bearings[0]:.6g} to {of_crank[-1].bearings[1]:.6g} m"
             hint = f'for target="{target}" give places between those of a throw'
             hint = f"is beyond the main bearings ({ends}); {hint}"
             raise inputs.faulty(f'planes["{name}"]', f"= {z:.6g}", hint)
@@ -186,8 +186,8 @@ def _check_between(engine: Engine, planes: Mapping[str, Place], target: Target) 
 
 def bay_loads(engine: Engine) -> NDArray[np.complex128]:
     """Return what each throw exerts on its main bearings: force and moment, (n_bays, 2)."""
-    found = np.array(_core.bay_loads(engine_core(engine)), dtype=np.complex128)
-    return read_only(found.reshape(-1, 2))
+    loads = np.array(_core.bay_loads(engine_core(engine)), dtype=np.complex128)
+    return read_only(loads.reshape(-1, 2))
 
 
 # --- what hardware must not bring about ---------------------------------------------------------
@@ -197,9 +197,9 @@ APPEARING = {"force": "shaking force", "moment": "rocking moment", "torque": "ro
 
 def warn_of_appearing(engine: Engine, with_hardware: _core.Engine) -> None:
     """Warn of orders that vanish in an engine and not in the same with other hardware."""
-    found = _core.appearing(engine_core(engine), with_hardware)
-    if found:
-        words = [f"{APPEARING[name]} of order {order}" for order, name in found]
+    appearing = _core.appearing(engine_core(engine), with_hardware)
+    if appearing:
+        words = [f"{APPEARING[name]} of order {order}" for order, name in appearing]
         warn(
             f"{labels.name_of(engine)}: the fitted engine has a {' and a '.join(words)}, which "
             "vanishes without this hardware"

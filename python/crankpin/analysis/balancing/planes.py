@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 Planes: TypeAlias = "ArrayLike | Mapping[str, float | tuple[float, int]]"
-HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
-MOST = 200
+PLANES_HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
+MOST_PLANES = 200
 """Largest number of planes."""
 MOST_ANGLES = 10_000
 """Largest number of angles of all planes together: a step of the fit takes 40 ms then."""
@@ -54,10 +54,10 @@ def named(engine: Engine, planes: Planes) -> dict[str, Place]:
     if isinstance(planes, Mapping):
         places = {inputs.text("planes", name): _place(name, z) for name, z in planes.items()}
     else:
-        listed = inputs.items("planes", planes, HINT)
-        places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
-    if not 1 <= len(places) <= MOST:
-        raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST}")
+        entries = inputs.items("planes", planes, PLANES_HINT)
+        places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(entries, start=1)}
+    if not 1 <= len(places) <= MOST_PLANES:
+        raise inputs.faulty("planes", f"has {len(places)} places", f"give 1 to {MOST_PLANES}")
     checks.place(engine_core(engine), "planes", *(place.z for place in places.values()))
     return places
 
@@ -74,10 +74,10 @@ def _ends(engine: Engine, crank: int) -> list[tuple[str, Place]]:
 
 def _webs(engine: Engine, crank: int) -> list[tuple[str, Place]]:
     """Return planes at the webs of a crank."""
-    listed = [bay for bay in bays(engine) if bay.crank == crank]
+    of_crank = [bay for bay in bays(engine) if bay.crank == crank]
     names = [
         (f"throw {number} {side}" if len(bay.webs) == 2 else f"bay {number} web {k}", z)
-        for number, bay in enumerate(listed, start=1)
+        for number, bay in enumerate(of_crank, start=1)
         for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
     ]
     return [(_on_crank(name, crank), Place(z, crank)) for name, z in names]
@@ -125,10 +125,10 @@ def angles(names: Sequence[str], angles_deg: object) -> dict[str, tuple[str, ...
             raise inputs.faulty(
                 "angles_deg", f'has none for "{name}"', "give angles for every plane"
             )
-        listed = inputs.angles("angles_deg", by_name[name])
-        if not 1 <= len(listed) <= 360:
-            raise inputs.faulty("angles_deg", f"has {len(listed)} angles", "give 1 to 360")
-        allowed[name] = tuple(dict.fromkeys(listed))
+        angles = inputs.angles("angles_deg", by_name[name])
+        if not 1 <= len(angles) <= 360:
+            raise inputs.faulty("angles_deg", f"has {len(angles)} angles", "give 1 to 360")
+        allowed[name] = tuple(dict.fromkeys(angles))
     count = sum(map(len, allowed.values()))
     if count > MOST_ANGLES:
         raise inputs.faulty(
@@ -143,8 +143,8 @@ def _by_name(what: str, names: Sequence[str], values: object) -> Mapping[str, An
         return dict.fromkeys(names, values)
     for name in values:
         if name not in names:
-            listed = inputs.shorten(list(names))
-            raise inputs.rejected(what, name, f"is not a plane; choose from: {listed}")
+            short = inputs.shorten(list(names))
+            raise inputs.rejected(what, name, f"is not a plane; choose from: {short}")
     return values
 
 

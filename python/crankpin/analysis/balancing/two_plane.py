@@ -83,13 +83,13 @@ def two_plane_correction(
 
 
 def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
-    listed = inputs.vector(name, values)
-    if len(listed) != 2:
-        figures = f"{len(listed)} figure{'' if len(listed) == 1 else 's'}"
+    numbers = inputs.vector(name, values)
+    if len(numbers) != 2:
+        figures = f"{len(numbers)} figure{'' if len(numbers) == 1 else 's'}"
         raise inputs.faulty(name, f"has {figures}", "give two, one for each plane")
-    if not (np.abs(listed) <= 1e30).all():
+    if not (np.abs(numbers) <= 1e30).all():
         raise inputs.rejected(name, values, "give finite numbers")
-    return float(listed[0]), float(listed[1])
+    return float(numbers[0]), float(numbers[1])
 
 
 class TwoPlaneCorrection(Tabled):
@@ -161,5 +161,5 @@ class TwoPlaneCorrection(Tabled):
         return Table.from_rows(
             "Two-plane correction",
             ["plane", ("z", "m"), ("unbalance", "g·mm"), ("add at", "°"), ("or drill at", "°")],
-            [(k + 1, *(float(each[k]) for each in figures)) for k in (0, 1)],
+            [(k + 1, *(float(figure[k]) for figure in figures)) for k in (0, 1)],
         )

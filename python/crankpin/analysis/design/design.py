@@ -234,16 +234,22 @@ class Search:
             # Totals guide the optimiser; those of the result have all orders.
             orders = balance(one_cylinder(question), rpm, rtol=GUIDING).orders
         self._totals = orders
-        for each in objectives:
-            if "." in each.quantity or (each.order or 1) % 1:
+        for objective in objectives:
+            if "." in objective.quantity or (objective.order or 1) % 1:
                 hint = "give whole orders of whole quantities, or rank fired engines"
-                raise inputs.rejected("by", each.label, f"designs have no gas pressure; {hint}")
+                raise inputs.rejected(
+                    "by", objective.label, f"designs have no gas pressure; {hint}"
+                )
         self._smooth = [
-            (each.quantity, each.what, None if each.order is None else int(each.order))
-            for each in objectives
-            if each.quantity
+            (
+                objective.quantity,
+                objective.what,
+                None if objective.order is None else int(objective.order),
+            )
+            for objective in objectives
+            if objective.quantity
         ]
-        unnamed = [each.label for each in objectives if not each.quantity]
+        unnamed = [objective.label for objective in objectives if not objective.quantity]
         if unnamed and any(family.variables for family in self._families):
             hint = "fix the angles, or design by others and rank the engines with crankpin.rank"
             hint = f"angles that vary are optimised by forces, moments and torques; {hint}"
@@ -253,16 +259,16 @@ class Search:
 
     def optima(self, count: int, seed: int, progress: Progress) -> list[Optimum]:
         """Return the designs at which no small change of angles helps."""
-        fixed = [each for each in self._families if not each.variables]
-        single = [each for each in self._families if len(each.variables) == 1]
-        several = [each for each in self._families if len(each.variables) > 1]
+        fixed = [family for family in self._families if not family.variables]
+        single = [family for family in self._families if len(family.variables) == 1]
+        several = [family for family in self._families if len(family.variables) > 1]
         symmetries = self._question.symmetries
-        results = [optima.Optimum(each.base, isolated=True, values=()) for each in fixed]
-        with progress_bar.shown(progress, "designs") as shown:
+        results = [optima.Optimum(family.base, isolated=True, values=()) for family in fixed]
+        with progress_bar.shown(progress, "designs") as bar:
 
             def report(done: int, total: int) -> None:
-                if shown is not None:
-                    shown(done, total)
+                if bar is not None:
+                    bar(done, total)
 
             if single:
                 results += optima.of_one_angle(single, self._merit, symmetries, count, report)
@@ -275,7 +281,7 @@ class Search:
     ) -> tuple[tuple[Design, ...], Sweep]:
         """Return the best designs, and the sweep of all that were found."""
         symmetries = self._question.symmetries
-        cranks = [self._firing(symmetries.first(each.crank)) for each in candidates]
+        cranks = [self._firing(symmetries.first(candidate.crank)) for candidate in candidates]
         swept, rows = self._values(cranks)
         tolerances = rtol * self._scales(rows)
         designs: list[Design] = []
@@ -309,12 +315,14 @@ class Search:
             rpm=self._rpm,
             orders="auto" if self._orders is None else self._orders,
         )
-        return swept, np.stack([each.values(swept)[:, 0] for each in self._objectives], axis=1)
+        return swept, np.stack(
+            [objective.values(swept)[:, 0] for objective in self._objectives], axis=1
+        )
 
     def _merit(self, family: Family) -> _core.Objectives:
         question = dataclasses.replace(self._question, shafts=())
         (engine,) = engines_of(question, [family.base])
-        turns = [each.turns(question.banks, question.count) for each in family.variables]
+        turns = [variable.turns(question.banks, question.count) for variable in family.variables]
         removed = self._question.shafts
         return _core.Objectives(engine._core, turns, self._smooth, self._totals, removed)
 
@@ -324,4 +332,4 @@ class Search:
         named = iter([_core.angular_speed(self._rpm) ** 2 * scale for scale in over_square])
         largest = np.abs(np.where(np.isfinite(rows), rows, 0.0)).max(axis=0)
         pairs = zip(self._objectives, largest, strict=True)
-        return np.array([next(named) if each.quantity else most for each, most in pairs])
+        return np.array([next(named) if objective.quantity else most for objective, most in pairs])

@@ -145,10 +145,10 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         }
         if self.question.shafts:
             pairs = itertools.product(designs, angles.tolist())
-            cranks = [turned(self.question, each.crank, angle) for each, angle in pairs]
+            cranks = [turned(self.question, design.crank, angle) for design, angle in pairs]
             swept = sweep(engines_of(self.question, cranks), **chosen)
         else:
-            engines = [each.engine for each in designs]
+            engines = [design.engine for design in designs]
             swept = sweep(engines, bank_angle_deg=angles, hold=self.question.hold, **chosen)
         return named(self.by[0]).values(swept).reshape(len(designs), -1)
 
@@ -156,7 +156,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, the speed and the balancers in words."""
-        least = self._minimised(objectives, given=self.orders is not None)
+        least = self._minimised(objectives, with_orders=self.orders is not None)
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
 
     def _balancers(self) -> list[str]:
@@ -171,24 +171,27 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         """Table that is shown: the designs, best first."""
         designs = self.designs
         vee = self.question.banks == 2
-        split = vee and any(any(each.pin_split_deg) for each in self)
+        split = vee and any(any(design.pin_split_deg) for design in self)
         heads: list[str | tuple[str, str]] = ["place", ("throws", "°")]
         heads += [("pin split", "°")] if split else []
         heads += [("bank angle", "°")] if vee else []
-        heads += ["equivalent", *((each.head, each.unit) for each in self.objectives)]
+        heads += [
+            "equivalent",
+            *((objective.head, objective.unit) for objective in self.objectives),
+        ]
         rows = []
-        for each in designs:
-            mark = "" if each.isolated else NEARBY
-            row: list[str | float] = [each.place, f"{each.crank.text}{mark}"]
-            row += [each.crank.splits_text or "0"] if split else []
-            row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
-            rows.append((*row, each.equivalents))
-        values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
+        for design in designs:
+            mark = "" if design.isolated else NEARBY
+            row: list[str | float] = [design.place, f"{design.crank.text}{mark}"]
+            row += [design.crank.splits_text or "0"] if split else []
+            row += [f"{design.bank_angle_deg:.8g}"] if design.bank_angle_deg is not None else []
+            rows.append((*row, design.equivalents))
+        values = np.array([design.values for design in designs]).reshape(-1, len(self.objectives))
         title = f"Designs by {self._description()}"
         if len(designs) < self.optima:
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"
-        starred = any(not each.isolated for each in designs)
+        starred = any(not design.isolated for design in designs)
         return Table.from_rows(
             title, heads, rows, values, note=note if starred else "", loads=self.loads_counted
         )

@@ -191,11 +191,11 @@ def _intervals(
         return (simple(Fraction(cycle, number)),) * number if even else None
     if even:
         raise inputs.rejected("intervals_deg", intervals_deg, "leave it out, or even_firing")
-    listed = [exact(each) for each in inputs.angles("intervals_deg", intervals_deg)]
-    if len(listed) != number or sum(listed) != cycle or min(listed) < 0:
+    intervals = [exact(angle) for angle in inputs.angles("intervals_deg", intervals_deg)]
+    if len(intervals) != number or sum(intervals) != cycle or min(intervals) < 0:
         hint = f"give {number} intervals, none negative, that add up to {cycle}"
         raise inputs.rejected("intervals_deg", intervals_deg, hint)
-    return tuple(listed)
+    return tuple(intervals)
 
 
 def _spread(number: int, over: int) -> tuple[Exact, ...]:
@@ -262,10 +262,10 @@ def _throws(count: int, throws: object) -> tuple[tuple[Exact, ...], ...]:
     hint = f'give {count} angles to be put in order, or "free"'
     if isinstance(throws, str):
         raise inputs.rejected("throws_deg", throws, hint)
-    listed = [exact(each) % TURN for each in inputs.angles("throws_deg", throws)]
-    if len(listed) != count:
+    angles = [exact(angle) % TURN for angle in inputs.angles("throws_deg", throws)]
+    if len(angles) != count:
         raise inputs.rejected("throws_deg", throws, hint)
-    return (tuple(listed),)
+    return (tuple(angles),)
 
 
 def _shafts(shaft_ratios: Iterable[float | str | Fraction]) -> tuple[Order, ...]:
@@ -273,10 +273,10 @@ def _shafts(shaft_ratios: Iterable[float | str | Fraction]) -> tuple[Order, ...]
         "give different speed ratios, multiples of 1/2 such as [-1] or [2, -2]; "
         "for 1 give counterweights=True"
     )
-    listed = inputs.items("shafts", shaft_ratios, hint)
-    ratios = [inputs.speed_ratio("shafts", each) for each in listed]
+    entries = inputs.items("shafts", shaft_ratios, hint)
+    ratios = [inputs.speed_ratio("shafts", ratio) for ratio in entries]
     if max(map(abs, ratios), default=0) > _core.HIGHEST_ORDER:
-        raise inputs.rejected("shafts", listed, f"give ratios up to {_core.HIGHEST_ORDER}")
+        raise inputs.rejected("shafts", entries, f"give ratios up to {_core.HIGHEST_ORDER}")
     if 1 in ratios or len(set(ratios)) < len(ratios):
-        raise inputs.rejected("shafts", listed, hint)
+        raise inputs.rejected("shafts", entries, hint)
     return tuple(ratios)

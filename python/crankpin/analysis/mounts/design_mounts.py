@@ -44,7 +44,7 @@ NOTHING = 1e-10
 """Sum of objectives, with decoupling squared, at which the search stops."""
 WINDOW = 1e-6
 """Share of a limit by which rounding of the optimiser may miss it."""
-EQUAL = 1e-3
+EQUAL_MERITS = 1e-3
 """Relative difference from the best within which another start counts as equally good."""
 MOST_STARTS = 1000
 
@@ -85,7 +85,7 @@ class MountDesign(Tabled):
 
     def _met(self) -> list[bool]:
         pairs = zip(self.after, self.limits, strict=True)
-        return [each is None or _within(value, each) for value, each in pairs]
+        return [limit is None or _within(value, limit) for value, limit in pairs]
 
     @property
     def loads_counted(self) -> str:
@@ -97,12 +97,12 @@ class MountDesign(Tabled):
         """Objectives and requirements, before and after."""
         met = self._met()
         wanted = tuple(
-            f"{each[0]:g} to {each[1]:g}" if each else word or "–"
-            for each, word in zip(self.limits, self.wanted, strict=True)
+            f"{limit[0]:g} to {limit[1]:g}" if limit else word or "–"
+            for limit, word in zip(self.limits, self.wanted, strict=True)
         )
         reached = tuple(
-            "–" if each is None else "yes" if good else "no"
-            for each, good in zip(self.limits, met, strict=True)
+            "–" if limit is None else "yes" if good else "no"
+            for limit, good in zip(self.limits, met, strict=True)
         )
         columns = (
             Column("of", self.names),
@@ -250,8 +250,8 @@ class Question:
             raise inputs.rejected("powertrain", powertrain, "give a crankpin.Powertrain")
         self.powertrain = powertrain
         self.objectives = [
-            _objective(each)
-            for each in ([by] if isinstance(by, str) else inputs.items("by", by, "give a list"))
+            _objective(name)
+            for name in ([by] if isinstance(by, str) else inputs.items("by", by, "give a list"))
         ]
         if not self.objectives:
             raise inputs.rejected("by", by, 'give "decoupling" or a force such as "mount_force[2]"')
@@ -297,22 +297,22 @@ class Question:
         names = self.powertrain.names
         if not isinstance(vary, Mapping):
             vary = dict.fromkeys(names, vary)
-        found = []
+        parts_of = []
         for name, kinds in vary.items():
             inputs.one_of("vary", name, names)
-            listed = (
+            entries = (
                 [kinds] if isinstance(kinds, str) else inputs.items("vary", kinds, "give a list")
             )
-            for kind in listed:
+            for kind in entries:
                 inputs.one_of(f"vary[{name!r}]", kind, KINDS)
                 mount = self.powertrain.mounts[names.index(name)]
                 if kind == "tilt_deg" and mount.axes is not None:
                     hint = "it has axes; give it tilt_deg, or vary something else"
                     raise inputs.rejected(f"vary[{name!r}]", kind, hint)
-                found.append((names.index(name), kind))
-        if not found:
+                parts_of.append((names.index(name), kind))
+        if not parts_of:
             raise inputs.rejected("vary", vary, "give what varies, such as 'stiffness'")
-        return found
+        return parts_of
 
     def _bounds(self, bounds: Any) -> None:  # noqa: ANN401 - checked here
         """Set start, lowest and highest value of each variable."""
@@ -327,33 +327,35 @@ class Question:
         for place, kind in self.varied:
             if kind not in bounds:
                 raise inputs.rejected("bounds", [*bounds], f"it varies, so give {kind!r} too")
-            mount, given, argument = (
+            mount, limits, argument = (
                 self.powertrain.mounts[place],
                 bounds[kind],
                 f"bounds[{kind!r}]",
             )
-            if isinstance(given, Mapping):
-                for name in given:
+            if isinstance(limits, Mapping):
+                for name in limits:
                     inputs.one_of(argument, name, self.powertrain.names)
-                if mount.name not in given:
-                    raise inputs.rejected(argument, [*given], f"give that of {mount.name!r} too")
-                given, argument = given[mount.name], f"{argument}[{mount.name!r}]"
+                if mount.name not in limits:
+                    raise inputs.rejected(argument, [*limits], f"give that of {mount.name!r} too")
+                limits, argument = limits[mount.name], f"{argument}[{mount.name!r}]"
             if kind == "stiffness":
-                each = [given] * 3 if np.ndim(given) == 1 else inputs.items(argument, given, PAIRS)
-                if len(each) != 3:
-                    raise inputs.rejected(argument, given, PAIRS)
-                pairs = [_range(argument, pair) for pair in each]
+                entries = (
+                    [limits] * 3 if np.ndim(limits) == 1 else inputs.items(argument, limits, PAIRS)
+                )
+                if len(entries) != 3:
+                    raise inputs.rejected(argument, limits, PAIRS)
+                pairs = [_range(argument, pair) for pair in entries]
                 start += list(_dynamic(mount))
                 low += [least for least, _ in pairs]
                 high += [most for _, most in pairs]
                 continue
-            reach = inputs.finite(argument, given)
+            reach = inputs.finite(argument, limits)
             if reach < 0.0:
-                raise inputs.rejected(argument, given, "give zero or more: how far")
-            own = mount.tilt_deg or 0.0 if kind == "tilt_deg" else mount.at["xyz".index(kind)]
-            start.append(float(own))
-            low.append(float(own) - reach)
-            high.append(float(own) + reach)
+                raise inputs.rejected(argument, limits, "give zero or more: how far")
+            middle = mount.tilt_deg or 0.0 if kind == "tilt_deg" else mount.at["xyz".index(kind)]
+            start.append(float(middle))
+            low.append(float(middle) - reach)
+            high.append(float(middle) + reach)
         self.low, self.high = np.array(low), np.array(high)
         self.start = np.clip(np.array(start), self.low, self.high)
 
@@ -361,12 +363,12 @@ class Question:
 
     def _places(self) -> list[tuple[int, str, slice]]:
         """Return mount, kind and the places of its values among all."""
-        found, at = [], 0
+        mounts, at = [], 0
         for place, kind in self.varied:
             width = 3 if kind == "stiffness" else 1
-            found.append((place, kind, slice(at, at + width)))
+            mounts.append((place, kind, slice(at, at + width)))
             at += width
-        return found
+        return mounts
 
     def made(self, values: Real) -> Powertrain:
         """Return the powertrain of some values."""
@@ -406,7 +408,7 @@ class Question:
         ratio = self.ratio
         if ratio is None:
             solved = optimize.lsq_linear(rows, right, (low, 1.0), method="bvls", tol=1e-15)
-            found = solved.x
+            solution = solved.x
         else:
             solved = optimize.minimize(
                 lambda x: (((rows @ x - right) ** 2).sum(), 2.0 * rows.T @ (rows @ x - right)),
@@ -417,9 +419,9 @@ class Question:
                 constraints={"type": "ineq", "fun": lambda x: _ratios(x * scale, ratio)},
                 options={"ftol": 1e-16, "maxiter": 500},
             )
-            found = solved.x
+            solution = solved.x
         values = self.start.copy()
-        values[free] = np.clip(found * scale, self.low[free], self.high[free])
+        values[free] = np.clip(solution * scale, self.low[free], self.high[free])
         return np.asarray(values)
 
     def designed(self, starts: int, seed: int, progress: Progress) -> MountDesign:
@@ -440,22 +442,22 @@ class Question:
                 self._core.values(self.start), self.objectives, strict=True
             )
         ]
-        found = []
-        with progress_bar.shown(progress, "mount designs") as shown:
+        candidates = []
+        with progress_bar.shown(progress, "mount designs") as bar:
             for k, begin in enumerate(begins[:starts]):
-                found.append(self._optimum(begin))
-                if shown is not None:
-                    shown(k + 1, starts)
-                if found[-1][0] < NOTHING and found[-1][1] <= WINDOW:
+                candidates.append(self._optimum(begin))
+                if bar is not None:
+                    bar(k + 1, starts)
+                if candidates[-1][0] < NOTHING and candidates[-1][1] <= WINDOW:
                     break
-        allowed = [each for each in found if each[1] <= WINDOW]
+        allowed = [pair for pair in candidates if pair[1] <= WINDOW]
         if allowed:
-            best = min(allowed, key=lambda each: each[0])
+            best = min(allowed, key=lambda pair: pair[0])
         else:
-            best = min(found, key=lambda each: each[1])
-        near = best[0] + EQUAL * abs(best[0]) + NOTHING
-        good = sum(value <= near and miss <= max(best[1], WINDOW) for value, miss, _ in found)
-        return self._result(best[2], f"Bounded optimisation, seed {seed}", len(found), good)
+            best = min(candidates, key=lambda pair: pair[1])
+        near = best[0] + EQUAL_MERITS * abs(best[0]) + NOTHING
+        good = sum(value <= near and miss <= max(best[1], WINDOW) for value, miss, _ in candidates)
+        return self._result(best[2], f"Bounded optimisation, seed {seed}", len(candidates), good)
 
     def _value(self, unit: Real) -> Real:
         """Return values of numbers from 0 to 1, stiffnesses on a logarithmic scale."""
@@ -527,23 +529,27 @@ class Question:
             if name == "purity":
                 names.append("least purity %")
                 both = (self.powertrain, fitted)
-                pairs.append(tuple(float(self._purities(each).min()) for each in both))
+                pairs.append(tuple(float(self._purities(powertrain).min()) for powertrain in both))
             elif order is None:
                 names.append("decoupling")
-                pairs.append(tuple(each._core.roll()[0] for each in (self.powertrain, fitted)))
+                pairs.append(
+                    tuple(powertrain._core.roll()[0] for powertrain in (self.powertrain, fitted))
+                )
             else:
                 names.append(f"{name}[{order}] N")
-                old, new = (self._force(each, name, order) for each in (self.powertrain, fitted))
+                old, new = (
+                    self._force(powertrain, name, order) for powertrain in (self.powertrain, fitted)
+                )
                 pairs.append((old, new))
             limits.append(None)
         if ("decoupling", None) in self.objectives:
             names += ["torque in one mode %", "roll frequency Hz"]
             pairs += [
                 tuple(
-                    each._core.torque_in_one_mode(self._frequency)
-                    for each in (self.powertrain, fitted)
+                    powertrain._core.torque_in_one_mode(self._frequency)
+                    for powertrain in (self.powertrain, fitted)
                 ),
-                tuple(each._core.roll()[1] for each in (self.powertrain, fitted)),
+                tuple(powertrain._core.roll()[1] for powertrain in (self.powertrain, fitted)),
             ]
             target = self.roll_frequency
             # Reached to a thousandth: rubber scatters by more.
@@ -552,14 +558,20 @@ class Question:
             for k, word in ((0, "lowest"), (-1, "highest")):
                 names.append(f"{word} mode Hz")
                 pairs.append(
-                    tuple(float(self._modes(each)[k]) for each in (self.powertrain, fitted))
+                    tuple(
+                        float(self._modes(powertrain)[k])
+                        for powertrain in (self.powertrain, fitted)
+                    )
                 )
                 limits.append(self.window)
         if self.ratio is not None:
             for pick, word in ((np.min, "least"), (np.max, "largest")):
                 names.append(f"{word} ratio of stiffness")
                 pairs.append(
-                    tuple(float(pick(self._shown(each))) for each in (self.powertrain, fitted))
+                    tuple(
+                        float(pick(self._shown(powertrain)))
+                        for powertrain in (self.powertrain, fitted)
+                    )
                 )
                 limits.append(self.ratio)
         before, after = zip(*pairs, strict=True)
@@ -594,8 +606,8 @@ def _ratios(values: Real, ratio: tuple[float, float]) -> Real:
 
 def _dynamic(mount: Mount) -> tuple[float, float, float]:
     """Return the dynamic stiffness along the axes, N/m, without loss."""
-    given: Any = mount.stiffness if mount.dynamic_stiffness is None else mount.dynamic_stiffness
-    return given  # type: ignore[no-any-return]
+    stiffness: Any = mount.stiffness if mount.dynamic_stiffness is None else mount.dynamic_stiffness
+    return stiffness  # type: ignore[no-any-return]
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:
@@ -611,19 +623,19 @@ def _objective(text: object) -> Objective:
     )
     if isinstance(text, str) and text in ("decoupling", "purity"):
         return (text, None)
-    found = FORCE.fullmatch(text) if isinstance(text, str) else None
-    if found is None:
+    match = FORCE.fullmatch(text) if isinstance(text, str) else None
+    if match is None:
         raise inputs.rejected("by", text, hint)
-    return (found[1], inputs.order(float(found[2])))
+    return (match[1], inputs.order(float(match[2])))
 
 
-def _range(name: str, given: Any) -> tuple[float, float]:  # noqa: ANN401 - checked here
+def _range(name: str, values: Any) -> tuple[float, float]:  # noqa: ANN401 - checked here
     """Return two numbers above zero, in order."""
     hint = "give two numbers above zero, the lower one first"
-    listed = inputs.items(name, given, hint)
-    if len(listed) != 2:
-        raise inputs.rejected(name, given, hint)
-    low, high = (inputs.finite(name, each) for each in listed)
+    entries = inputs.items(name, values, hint)
+    if len(entries) != 2:
+        raise inputs.rejected(name, values, hint)
+    low, high = (inputs.finite(name, value) for value in entries)
     if not 0.0 < low <= high:
-        raise inputs.rejected(name, given, hint)
+        raise inputs.rejected(name, values, hint)
     return low, high

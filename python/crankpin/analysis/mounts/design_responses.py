@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.quantity import Quantity
     from crankpin.model.mounts import Mount
 
-FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
+MOUNT_FIGURES = ("at", "tilt_deg", "stiffness", "dynamic_stiffness", "loss_factor", "damping")
 """Figures of a mount that can differ between designs."""
 
 
@@ -64,7 +64,7 @@ class DesignResponses(Labelled):
             for figure, values in figures.items():
                 rows = values if values.ndim == 2 else np.repeat(values[:, None], 3, axis=1)
                 vary.append((names.index(name), figure, rows))
-        found = self.powertrain._core.designs(
+        responses = self.powertrain._core.designs(
             self.powertrain.engine._core,
             vary,
             self.rpm,
@@ -72,7 +72,7 @@ class DesignResponses(Labelled):
             (self.with_mount_force, list(self.points)),
             self.at_frequency,
         )
-        (orders, omitted, bounds), frequency, largest, rms = found
+        (orders, omitted, bounds), frequency, largest, rms = responses
         self.__dict__.update(_orders=(tuple(orders), tuple(omitted)), _bounds=bounds)
         self.__dict__.update(_frequency=frequency, _largest=largest, _rms=rms)
         super().__post_init__()
@@ -214,8 +214,8 @@ class DesignResponses(Labelled):
         """Natural frequencies, and the largest rms of the force on the body, of each design."""
         columns = [Column("design", np.arange(len(self)))]
         for k, values in enumerate(self.read("frequency").T.tolist()):
-            known = (None if math.isnan(each) else each for each in values)
-            columns.append(Column(f"f{k + 1}", tuple(known), "Hz"))
+            cells = (None if math.isnan(value) else value for value in values)
+            columns.append(Column(f"f{k + 1}", tuple(cells), "Hz"))
         for axis, values in zip("xyz", self.read("body_force_rms").T, strict=True):
             columns.append(Column(f"F_{axis} rms", values, "N"))
         name = labels.name_of(self.powertrain.engine)
@@ -246,38 +246,38 @@ def designs(
         if not hasattr(figures, "items"):
             raise inputs.rejected(f"vary[{name!r}]", figures, 'give {"stiffness": values}')
         values[name] = {
-            figure: _values(by_name[name], figure, given) for figure, given in figures.items()
+            figure: _values(by_name[name], figure, values) for figure, values in figures.items()
         }
-    counts = {len(each) for figures in values.values() for each in figures.values()}
+    counts = {len(value) for figures in values.values() for value in figures.values()}
     if len(counts) > 1:
-        listed = ", ".join(map(str, sorted(counts)))
+        numbers = ", ".join(map(str, sorted(counts)))
         raise inputs.faulty(
-            "vary", f"has {listed} values", "give one value of each figure for each design"
+            "vary", f"has {numbers} values", "give one value of each figure for each design"
         )
     points = inputs.items("at", at, "give a list of points (x, y, z), m")
     places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(points))
-    given = None if frequency is None else inputs.number("frequency", frequency)
+    hertz = None if frequency is None else inputs.number("frequency", frequency)
     is_each = inputs.flag("mount_force", mount_force)
-    found = DesignResponses(
-        powertrain, MappingProxyType(values), speeds, request, is_each, places, given
+    result = DesignResponses(
+        powertrain, MappingProxyType(values), speeds, request, is_each, places, hertz
     )
     inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(speeds.max())))
-    return found
+    return result
 
 
-def _values(mount: Mount, figure: str, given: ArrayLike) -> NDArray[np.float64]:
+def _values(mount: Mount, figure: str, numbers: ArrayLike) -> NDArray[np.float64]:
     """Return the values of a figure, one or three of each design."""
     name = f"vary[{mount.name!r}]"
-    inputs.one_of(name, figure, FIGURES)
+    inputs.one_of(name, figure, MOUNT_FIGURES)
     name = f"{name}[{figure!r}]"
     if figure == "stiffness" and mount.dynamic_stiffness is not None:
         hint = (
             "the mount has a dynamic_stiffness; vary that: the static one does not count in motion"
         )
-        raise inputs.rejected(name, given, hint)
+        raise inputs.rejected(name, numbers, hint)
     if figure == "tilt_deg" and mount.axes is not None:
-        raise inputs.rejected(name, given, "the mount has axes; give it a tilt_deg instead")
-    values = inputs.array(name, given)
+        raise inputs.rejected(name, numbers, "the mount has axes; give it a tilt_deg instead")
+    values = inputs.array(name, numbers)
     is_vector = values.ndim == 2 and values.shape[1] == 3 and figure != "tilt_deg"
     is_number = values.ndim == 1 and figure != "at"
     if not (is_vector or is_number) or not len(values):

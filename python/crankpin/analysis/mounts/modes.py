@@ -103,9 +103,9 @@ class MountModes(Tabled):
         notes = [f"No mount resists: {'; '.join(self.free)}."] if self.free else []
         for group in self.groups:
             if len(group) > 1:
-                listed = ", ".join(map(str, group))
+                numbers = ", ".join(map(str, group))
                 notes.append(
-                    f"Modes {listed} have one frequency: shares are the means of the group."
+                    f"Modes {numbers} have one frequency: shares are the means of the group."
                 )
         return " ".join(notes)
 
@@ -244,5 +244,7 @@ class RollAxes(Tabled):
         at = "" if self.at_frequency is None else f", {self.at_frequency:g} Hz"
         kinds = ["torque roll axis (free)", "elastic roll axis (static stiffness)"]
         kinds.append(f"elastic roll axis (dynamic stiffness{at})")
-        listed = [[kind, *row] for kind, row in zip(kinds, rows, strict=True)]
-        return Table.from_rows(f"{self.powertrain._title}: axes of roll", ["axis", *heads], listed)
+        labelled = [[kind, *row] for kind, row in zip(kinds, rows, strict=True)]
+        return Table.from_rows(
+            f"{self.powertrain._title}: axes of roll", ["axis", *heads], labelled
+        )

@@ -97,18 +97,18 @@ class Powertrain(Framed, Input):
         engine_core(engine)
         if not isinstance(body, RigidBody):
             raise inputs.rejected("body", body, "give a crankpin.RigidBody")
-        listed = inputs.items("mounts", mounts, "give a list of crankpin.Mount")
-        for k, mount in enumerate(listed):
+        entries = inputs.items("mounts", mounts, "give a list of crankpin.Mount")
+        for k, mount in enumerate(entries):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
-        figures = [mount._figures for mount in listed]
-        given: object = support
-        if not isinstance(given, Subframe | Receptance | None):
+        figures = [mount._figures for mount in entries]
+        carrier: object = support
+        if not isinstance(carrier, Subframe | Receptance | None):
             hint = "give a crankpin.Subframe or a crankpin.Receptance"
-            raise inputs.rejected("support", given, hint)
+            raise inputs.rejected("support", carrier, hint)
         below = None if support is None else support._figures
         core = _core.Powertrain(body._figures, figures, below)
-        self.__dict__.update(engine=engine, body=body, mounts=tuple(listed), support=support)
+        self.__dict__.update(engine=engine, body=body, mounts=tuple(entries), support=support)
         self.__dict__.update(_powertrain=core)
 
     @property
@@ -253,8 +253,8 @@ class Powertrain(Framed, Input):
         >>> cp.Powertrain(cp.Engine.preset("i4"), body, mounts).modes().free
         ('rotation about the line through (0, 0, 0) m along (1, 0, 0)',)
         """
-        given = None if frequency is None else inputs.number("frequency", frequency)
-        return natural.MountModes(self, given)
+        hertz = None if frequency is None else inputs.number("frequency", frequency)
+        return natural.MountModes(self, hertz)
 
     @documented(modes)
     def axes(self, frequency: float | None = None) -> RollAxes:
@@ -271,8 +271,8 @@ class Powertrain(Framed, Input):
             If a motion is free, stiffness depends on frequency and none is given, or a receptance
             carries the mounts.
         """
-        given = None if frequency is None else inputs.number("frequency", frequency)
-        return natural.RollAxes(self, given)
+        hertz = None if frequency is None else inputs.number("frequency", frequency)
+        return natural.RollAxes(self, hertz)
 
     @documented()
     def response(
@@ -486,7 +486,7 @@ class Powertrain(Framed, Input):
         else:
             shares = [stiffness] * len(self.names)
         inputs.one_of("corners", corners, ("axes", "mounts"))
-        given = None if frequency is None else inputs.number("frequency", frequency)
+        hertz = None if frequency is None else inputs.number("frequency", frequency)
         return MountRobustness(
             self,
             tuple(inputs.finite("stiffness", share) for share in shares),
@@ -494,7 +494,7 @@ class Powertrain(Framed, Input):
             inputs.finite("inertia", inertia),
             inputs.finite("cg", cg),
             corners == "axes",
-            given,
+            hertz,
         )
 
     def with_support(self, support: Support | None) -> Self:
@@ -558,12 +558,12 @@ class Powertrain(Framed, Input):
             )
         if not 1 <= number <= len(cycles):
             raise inputs.rejected("cylinder", number, f"give a number from 1 to {len(cycles)}")
-        listed: list[Any] = [*cycles]
-        listed[number - 1] = None
-        if all(one is None for one in listed):
+        of_cylinders: list[Any] = [*cycles]
+        of_cylinders[number - 1] = None
+        if all(one is None for one in of_cylinders):
             hint = "it is the last that fires; give engine.with_cycle(None), without gas at all"
             raise inputs.rejected("cylinder", number, hint)
-        return self.replace(engine=self.engine.with_cycle(listed))
+        return self.replace(engine=self.engine.with_cycle(of_cylinders))
 
     # --- pages ------------------------------------------------------------------------------------
 

@@ -40,7 +40,7 @@ Source: TypeAlias = tuple[Any, ...]
 """Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
-HIGHEST = "> 180"
+HIGHEST_GRADE = "> 180"
 """Text of an infinite grade."""
 SUPPORT = "support"
 """Name of the support, beside a place on it."""
@@ -57,21 +57,24 @@ def response(
     """Return the response; :meth:`Powertrain.response` documents the arguments."""
     request = Request.checked(orders=orders, rtol=rtol, spectrum=None, torque=True)
     speeds = inputs.array("rpm", rpm)
-    given: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
-    found = MountResponse(powertrain, given, request)
+    checked: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
+    response = MountResponse(powertrain, checked, request)
     inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
-    _warn_of_free_motion(found)
-    return found
+    _warn_of_free_motion(response)
+    return response
 
 
-def _warn_of_free_motion(found: MountResponse) -> None:
+def _warn_of_free_motion(response: MountResponse) -> None:
     """Warn of a motion that no mount resists."""
-    powertrain = found.powertrain
+    powertrain = response.powertrain
     if isinstance(powertrain.support, Receptance):
         powertrain = powertrain.with_support(None)  # What no mount resists is free on anything.
     frequency = None
     if powertrain._varies:
-        turns = np.multiply.outer(np.asarray(found.rpm), np.array(found.orders, dtype=float)) / 60.0
+        turns = (
+            np.multiply.outer(np.asarray(response.rpm), np.array(response.orders, dtype=float))
+            / 60.0
+        )
         frequency = float(np.min(turns, where=turns > 0.0, initial=np.inf))
         if frequency == np.inf:
             return
@@ -108,9 +111,9 @@ class PointMotion(Labelled):
         if isinstance(self.point, str):
             return f"{self.point!r}"
         on = " on the support" if self.on == SUPPORT else ""
-        shown = units.convert("m")
-        place = ", ".join(f"{shown.factor * float(x):.6g}" for x in self.point)
-        return f"the point ({place}) {shown.unit}{on}"
+        converted = units.convert("m")
+        place = ", ".join(f"{converted.factor * float(x):.6g}" for x in self.point)
+        return f"the point ({place}) {converted.unit}{on}"
 
     _along: ClassVar[tuple[str, ...]] = ("order",)
     _registry: ClassVar[Mapping[str, Kind]] = MOTIONS
@@ -202,7 +205,9 @@ class PointMotion(Labelled):
             most = units.figure(columns[2].data[largest], "mm/s", 4)
             note = units.Text("Largest velocity ", most, f" at {speeds[largest]:.10g} rpm.")
         if self.order in (None, ALL):
-            grades = [HIGHEST if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()]
+            grades = [
+                HIGHEST_GRADE if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()
+            ]
             columns.append(
                 Column("grade", (*[None] * (len(columns[0].values) - len(grades)), *grades))
             )
@@ -749,13 +754,13 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         order = self.orders[place]
         frequency = float(order) * float(speeds[speed]) / 60.0
         force = float(peaks[mount, speed, place])
-        found = (force, names[mount], float(speeds[speed]), order, frequency)
+        worst = (force, names[mount], float(speeds[speed]), order, frequency)
         if isinstance(self.powertrain.support, Receptance):
-            return WorstForce(*found, None, None)
+            return WorstForce(*worst, None, None)
         varies = self.powertrain._varies
         modes = self.powertrain.modes(frequency if varies else None).frequency
         mode = int(np.abs(modes - frequency).argmin())
-        return WorstForce(*found, mode + 1, float(modes[mode]))
+        return WorstForce(*worst, mode + 1, float(modes[mode]))
 
     # --- tables -----------------------------------------------------------------------------------
 
@@ -768,19 +773,21 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         if self._request.orders is not None:
             return places, ""
         peaks = self.read("mount_force", "peak").max(axis=-1)
-        kept = peaks > labels.NEGLIGIBLE * peaks.max()
-        if not kept.any():
+        is_large = peaks > labels.NEGLIGIBLE * peaks.max()
+        if not is_large.any():
             return places, ""
-        left_out = [order for order, shown in zip(self.orders, kept, strict=True) if not shown]
-        return np.flatnonzero(kept).tolist(), labels.not_shown(left_out)
+        left_out = [
+            order for order, is_visible in zip(self.orders, is_large, strict=True) if not is_visible
+        ]
+        return np.flatnonzero(is_large).tolist(), labels.not_shown(left_out)
 
     _driven = ""
     """What its titles say of actuators."""
 
     def _title(self, of: str) -> str:
         at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
-        given = " of the orders given" if self._request.orders is not None else ""
-        return units.Text(f"{self.powertrain._title_with(self._driven)}{at}: ", of, given)
+        which = " of the orders given" if self._request.orders is not None else ""
+        return units.Text(f"{self.powertrain._title_with(self._driven)}{at}: ", of, which)
 
     def _first_rows(self, rows: int, read: Callable[[Self], Table]) -> Table | None:
         """Return the table of the first speeds of many, which says how many there are."""
@@ -836,8 +843,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     def _of_loads(self) -> Table:
         places, note = self._shown()
         columns = [Column("order", tuple(self.orders[k] for k in places))]
-        each = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
-        pairs = zip(*(np.asarray(values)[places].T for values in each), strict=True)
+        readings = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
+        pairs = zip(*(np.asarray(values)[places].T for values in readings), strict=True)
         for name, (load, support, ratio, decibels) in zip(COMPONENTS_OF_LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
@@ -847,8 +854,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
             for values, in_unit in ((ratio, ""), (decibels, "dB")):
                 if np.isnan(values).all():
                     continue
-                listed = (None if np.isnan(each) else each for each in values.tolist())
-                columns.append(Column(f"T {name}", tuple(listed), in_unit))
+                cells = (None if np.isnan(value) else value for value in values.tolist())
+                columns.append(Column(f"T {name}", tuple(cells), in_unit))
         point = self._point and units.Figure(self._point, "m", "", "({}, {}, {})")
         at = units.Text(point or "the CG")
         title = self._title(units.Text("loads about ", at))

@@ -61,8 +61,10 @@ class MountRobustness(Tabled):
     _factors: Any = computed()
 
     def __post_init__(self) -> None:
-        given = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
-        nominal, ends, slope, factors = self.powertrain._core.robustness(given, self.at_frequency)
+        tolerances = (list(self.stiffness), self.mass, self.inertia, self.cg, self.by_axis)
+        nominal, ends, slope, factors = self.powertrain._core.robustness(
+            tolerances, self.at_frequency
+        )
         frequency, purity, least = map(read_only, nominal)
         self.__dict__.update(
             frequency=frequency, purity=purity, least_purity=least, cg_slope=slope, _ends=ends,
@@ -117,15 +119,15 @@ class MountRobustness(Tabled):
     def table(self) -> Table:
         """Frequencies and their bounds, purity and the least that was found."""
         columns = self._modes()
-        each = [("f", self.frequency)]
+        bounds = [("f", self.frequency)]
         if any(self.stiffness):
-            each += zip(("f least", "f largest"), self.frequency_bounds, strict=True)
+            bounds += zip(("f least", "f largest"), self.frequency_bounds, strict=True)
         if self.mass or self.inertia:
             heads = ("f least by mass", "f largest by mass")
-            each += zip(heads, self.mass_bounds, strict=True)
+            bounds += zip(heads, self.mass_bounds, strict=True)
         if self.cg:
-            each += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
-        columns += [Column(head, values, "Hz") for head, values in each]
+            bounds += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
+        columns += [Column(head, values, "Hz") for head, values in bounds]
         for head, values in (("purity", self.purity), ("least found", self.least_purity)):
             columns.append(Column(head, values, "%", decimals=1))
         shares = sorted({100.0 * share for share in self.stiffness})

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Measure: TypeAlias = Callable[[Balance], float]
 """A user's objective."""
 
-MOST_CYLINDERS = 8
+MOST_CYLINDERS_FIRING = 8
 """Cylinders up to which a table has the unevenness of firing, which takes all firing orders."""
 
 
@@ -62,7 +62,7 @@ class Objective(NamedTuple):
         if self.of_sweep is not None:
             values = np.array(self.of_sweep(swept)).reshape(len(swept.engines), -1)
         else:
-            rows = [[self._value(each) for each in row] for row in balances(swept)]
+            rows = [[self._value(balance) for balance in row] for row in balances(swept)]
             values = np.array(rows, dtype=np.float64)
         values.setflags(write=False)
         return values
@@ -105,12 +105,14 @@ class ByObjectives:
     @property
     def _of_torque(self) -> bool:
         """True if gas pressure could matter: to a torque, or to what a function reads."""
-        return any("torque" in each.quantity or each.of_function for each in self.objectives)
+        return any(
+            "torque" in objective.quantity or objective.of_function for objective in self.objectives
+        )
 
-    def _minimised(self, count: int | None, *, given: bool) -> str:
+    def _minimised(self, count: int | None, *, with_orders: bool) -> str:
         """Return the objectives, all or the first few, in words; with the orders as given."""
-        words = ", then ".join(each.words for each in self.objectives[:count])
-        return words.replace("all orders", "all of the orders given") if given else words
+        words = ", then ".join(objective.words for objective in self.objectives[:count])
+        return words.replace("all orders", "all of the orders given") if with_orders else words
 
 
 def tie_tolerance(tie_rtol: object) -> float:
@@ -134,9 +136,13 @@ def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
         )
         yield (
             balance(
-                each, swept.fixed["rpm"], spectrum=request.spectrum, torque=request.torque, **chosen
+                result,
+                swept.fixed["rpm"],
+                spectrum=request.spectrum,
+                torque=request.torque,
+                **chosen,
             )
-            for each in turned
+            for result in turned
         )
 
 
@@ -211,10 +217,14 @@ def of_table(swept: Sweep) -> list[Objective]:
     ]
     if "torque" in swept._request.quantities:
         names.append("total.torque.peak")
-    if all(len(engine) <= MOST_CYLINDERS for engine in swept.engines):
+    if all(len(engine) <= MOST_CYLINDERS_FIRING for engine in swept.engines):
         names.append("unevenness_deg")
     orders = swept._request.orders
-    return [each for each in map(named, names) if orders is None or each.order in (None, *orders)]
+    return [
+        objective
+        for objective in map(named, names)
+        if orders is None or objective.order in (None, *orders)
+    ]
 
 
 def _unevenness(balance: Balance) -> float:
@@ -236,19 +246,21 @@ def listed(by: object, argument: str = "by") -> list[Objective]:
         by = [by]
     hint = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
     objectives: list[Objective] = []
-    for each in inputs.items(argument, by, hint):
-        if isinstance(each, str):
-            objectives.append(named(each, argument))
-        elif callable(each):
-            label = _free(each, objectives)
+    for objective in inputs.items(argument, by, hint):
+        if isinstance(objective, str):
+            objectives.append(named(objective, argument))
+        elif callable(objective):
+            label = _free(objective, objectives)
             words = f"{label}{FUNCTION_GIVEN}"
-            objectives.append(Objective(label, label, words, "", of_balance=each))
+            objectives.append(Objective(label, label, words, "", of_balance=objective))
         else:
-            raise inputs.rejected(argument, each, hint)
+            raise inputs.rejected(argument, objective, hint)
     if not objectives:
         raise inputs.rejected(argument, by, hint)
     twice = {
-        each.label for each in objectives if [one.label for one in objectives].count(each.label) > 1
+        objective.label
+        for objective in objectives
+        if [one.label for one in objectives].count(objective.label) > 1
     }
     if twice:
         raise inputs.rejected(argument, by, f"{min(twice)} is given twice; give it once")
@@ -259,7 +271,7 @@ def _free(function: object, taken: list[Objective]) -> str:
     """Return a name for the column of a function that no other column has."""
     name = str(getattr(function, "__name__", ""))
     name = name if name.isidentifier() else "objective"
-    used = {"unevenness_deg", "engine", "bank_angle_deg", *(each.label for each in taken)}
+    used = {"unevenness_deg", "engine", "bank_angle_deg", *(objective.label for objective in taken)}
     if name not in used:
         return name
     return next(new for k in range(2, 10**6) if (new := f"{name}_{k}") not in used)

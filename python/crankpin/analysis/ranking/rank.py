@@ -166,7 +166,9 @@ def rank(
     bare = tuple(objective.bare() for objective in ranked_by)
     if any(ratio < 0 for engine in swept.engines for _, _, ratio in engine._core.cranks[0]):
         # There counterweights on other cranks reach it.
-        bare = tuple(each._replace(words=each.words.removesuffix(LEFT)) for each in bare)
+        bare = tuple(
+            objective._replace(words=objective.words.removesuffix(LEFT)) for objective in bare
+        )
     return Ranking(swept, bare, tuple(values), choices)
 
 
@@ -187,18 +189,18 @@ def _engines(
     is_search = isinstance(engines, ArrangementSearch)
     if not isinstance(engines, (Engine, Mapping, ArrangementSearch)):
         engines = inputs.items("engines", engines, "give crankpin.Engine objects or arrangements")
-    listed = [] if isinstance(engines, (Engine, Mapping)) else list(engines)
-    if not listed and not isinstance(engines, (Engine, Mapping)):
+    entries = [] if isinstance(engines, (Engine, Mapping)) else list(engines)
+    if not entries and not isinstance(engines, (Engine, Mapping)):
         where = "the search has no bank angle in its window" if is_search else "give at least one"
         raise inputs.rejected("engines", [], where)
-    arrangements = [one for one in listed if isinstance(one, Arrangement)]
+    arrangements = [one for one in entries if isinstance(one, Arrangement)]
     if not arrangements:
         for name, value in (("cylinder", cylinder), ("spacing", spacing)):
             if value is not None:
                 hint = "is for arrangements; engines have their own, leave it out"
                 raise inputs.rejected(name, value, hint)
         return cast("Engines", [engines] if isinstance(engines, Engine) else engines)
-    for one in listed:
+    for one in entries:
         if not isinstance(one, Arrangement):
             raise inputs.rejected("engines", one, "give arrangements alone, or engines alone")
     for name, value in (("cylinder", cylinder), ("spacing", spacing)):

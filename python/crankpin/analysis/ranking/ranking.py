@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.model.engine import Engine, Hold
 
-MOST_ANGLES = 6
+MOST_ANGLES_SHOWN = 6
 """Bank angles shown in a cell."""
 
 
@@ -106,9 +106,9 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
         Of shape (n_engines,).
         """
-        own = own_angles(self.engines)
-        own.setflags(write=False)
-        return own
+        bank_angles = own_angles(self.engines)
+        bank_angles.setflags(write=False)
+        return bank_angles
 
     @property
     def values(self) -> NDArray[np.float64]:
@@ -136,7 +136,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
     def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
-        least = self._minimised(objectives, given=self.sweep._request.orders is not None)
+        least = self._minimised(objectives, with_orders=self.sweep._request.orders is not None)
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
     @property
@@ -147,10 +147,10 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)
-        heads = [(each.head, each.unit) for each in self.objectives]
+        heads = [(objective.head, objective.unit) for objective in self.objectives]
         rows = [
-            (each.place, each.name, _several(each.bank_angles_deg), *each.values)
-            for each in self.choices
+            (choice.place, choice.name, _several(choice.bank_angles_deg), *choice.values)
+            for choice in self.choices
         ]
         return Table.from_rows(
             title, ["place", "engine", ("bank angle", "°"), *heads], rows, loads=self.loads_counted
@@ -166,9 +166,9 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
 
 def _several(angles: tuple[float, ...]) -> str:
     """Return a few angles as text."""
-    shown = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
-    rest = len(angles) - MOST_ANGLES
-    return f"{shown} and {rest} more" if rest > 0 else shown or "–"
+    text = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES_SHOWN])
+    rest = len(angles) - MOST_ANGLES_SHOWN
+    return f"{text} and {rest} more" if rest > 0 else text or "–"
 
 
 # --- the best of a sweep --------------------------------------------------------------------------
@@ -183,11 +183,11 @@ def chosen(
     refine: bool,
 ) -> tuple[Choice, ...]:
     """Return each engine at its best angles, the best engine first."""
-    tolerances = np.array([rtol * _largest(each) for each in values])
+    tolerances = np.array([rtol * _largest(row) for row in values])
     names, grid = list(swept.coords["engine"]), angles_of(swept)
     choices: list[Choice] = []
     for k, engine in enumerate(swept.engines):
-        rows = np.stack([each[k] for each in values], axis=1)
+        rows = np.stack([row[k] for row in values], axis=1)
         angles = grid
         if refine and grid is not None:
 
@@ -200,17 +200,17 @@ def chosen(
                 part = _part(swept, engine, between)
                 more = [objective.values(part)[0] for objective in objectives]
                 rows, angles = np.vstack([rows, np.transpose(more)]), np.append(grid, between)
-        kept = _least(rows, tolerances)
-        best = tuple(map(float, rows[kept].min(axis=0))) if kept.size else (np.inf,) * len(values)
+        least = _least(rows, tolerances)
+        best = tuple(map(float, rows[least].min(axis=0))) if least.size else (np.inf,) * len(values)
         if angles is None:
-            own = own_angles([engine])
-            where = tuple(own.tolist()) if kept.size and np.isfinite(own[0]) else ()
+            of_engine = own_angles([engine])
+            where = tuple(of_engine.tolist()) if least.size and np.isfinite(of_engine[0]) else ()
         else:
-            where = tuple(sorted(set(angles[kept].tolist())))
+            where = tuple(sorted(set(angles[least].tolist())))
             if where and swept.hold is not None:
                 engine = engine.with_bank_angle(where[0], hold=swept.hold)  # noqa: PLW2901
         choices.append(Choice(0, str(names[k]), engine, where, best))
-    rows = np.array([each.values for each in choices])
+    rows = np.array([choice.values for choice in choices])
     ranked: list[Choice] = []
     for group in groups(rows, np.arange(len(choices)), tolerances):
         place = len(ranked) + 1
@@ -220,11 +220,11 @@ def chosen(
 
 def _least(rows: NDArray[np.float64], tolerances: NDArray[np.float64]) -> NDArray[np.intp]:
     """Return the rows lowest in the first column, of those the lowest in the second, and so on."""
-    kept = np.flatnonzero(np.isfinite(rows).all(axis=1))
+    finite = np.flatnonzero(np.isfinite(rows).all(axis=1))
     for column, tolerance in zip(rows.T, tolerances, strict=True):
-        if kept.size:
-            kept = kept[column[kept] <= column[kept].min() + tolerance]
-    return kept
+        if finite.size:
+            finite = finite[column[finite] <= column[finite].min() + tolerance]
+    return finite
 
 
 def groups(
@@ -269,13 +269,13 @@ def own_angles(engines: Sequence[Engine]) -> NDArray[np.float64]:
 Measured: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 """Computes the objective at bank angles in degrees."""
 
-POINTS = 9
+DIP_POINTS = 9
 """Angles at which a dip is sampled in each round, which leaves a quarter of it."""
-NARROW = 1e-10
+NARROW_DIP = 1e-10
 """Degrees to which a pointed dip is narrowed."""
-FLAT = 1e-14
+FLAT_DIP = 1e-14
 """Relative difference that rounding explains: the middle stands for a dip this flat."""
-SAME = 1e-3
+SAME_DIP = 1e-3
 """Degrees within which two dips count as one."""
 
 
@@ -295,25 +295,27 @@ def dips(
         return np.empty(0)
     low = angles[np.maximum(lowest_given - 1, 0)]
     high = angles[np.minimum(lowest_given + 1, angles.size - 1)]
-    while (high - low).max() > NARROW:
-        across = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, POINTS)
+    while (high - low).max() > NARROW_DIP:
+        across = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, DIP_POINTS)
         heights = at(across)
         lowest, rows = heights.argmin(axis=1), np.arange(lowest_given.size)
         low = across[rows, np.maximum(lowest - 1, 0)]
-        high = across[rows, np.minimum(lowest + 1, POINTS - 1)]
+        high = across[rows, np.minimum(lowest + 1, DIP_POINTS - 1)]
         highest = np.abs(heights).max(axis=1)
-        flat = np.isfinite(highest) & (heights.max(axis=1) <= heights.min(axis=1) + FLAT * highest)
-        low[flat] = high[flat] = across[flat, POINTS // 2]
+        flat = np.isfinite(highest) & (
+            heights.max(axis=1) <= heights.min(axis=1) + FLAT_DIP * highest
+        )
+        low[flat] = high[flat] = across[flat, DIP_POINTS // 2]
     middle = 0.5 * (low + high)
     # The angle with the fewest digits that is as good: 30 for 30.00000000001.
     rounded = np.stack([middle.round(digits) for digits in range(8)] + [middle], axis=1)
     rounded = np.clip(rounded, angles[0], angles[-1])
     heights = at(rounded)
-    as_good = heights <= heights[:, -1:] + FLAT * np.abs(values[lowest_given])[:, None]
+    as_good = heights <= heights[:, -1:] + FLAT_DIP * np.abs(values[lowest_given])[:, None]
     rows, chosen = np.arange(lowest_given.size), as_good.argmax(axis=1)
-    found, depths = rounded[rows, chosen], heights[rows, chosen]
-    found = np.sort(found[depths < values[lowest_given] - tolerance])
-    return found[np.append(True, np.diff(found) > SAME)] if found.size else found
+    minima, depths = rounded[rows, chosen], heights[rows, chosen]
+    minima = np.sort(minima[depths < values[lowest_given] - tolerance])
+    return minima[np.append(True, np.diff(minima) > SAME_DIP)] if minima.size else minima
 
 
 def _lowest(values: NDArray[np.float64], tolerance: float) -> Iterator[int]:

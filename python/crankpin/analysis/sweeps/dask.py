@@ -35,10 +35,9 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
     common = changed(whole, axes=first, _request=whole._of_parts)
     variables: dict[str, Any] = {}
-    listed = [whole._quantity(name) for name in quantities]
-    for quantity, what in [
-        (each, what) for each in listed for what in whole._in_datasets(each.name)
-    ]:
+    chosen = [whole._quantity(name) for name in quantities]
+    pairs = [(kind, what) for kind in chosen for what in whole._in_datasets(kind.name)]
+    for quantity, what in pairs:
         dims = quantity._dims_of(what)
         kind = np.complex128 if what in export.COMPLEX else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]
@@ -61,7 +60,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
             shape = tuple(sizes[dim] for dim in dims)
             values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
         variables[export.variable(quantity.name, what)] = values
-    return export.dataset(whole, listed, variables)
+    return export.dataset(whole, chosen, variables)
 
 
 def _block(

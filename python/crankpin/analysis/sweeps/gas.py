@@ -37,10 +37,10 @@ class GasMap(Record):
         hint = "give a crankpin.CycleMap, or one or None for each cylinder"
         alone = isinstance(cycle, CycleMap)
         maps: list[Any] = [cycle] if alone else inputs.items("cycle", cycle, hint)
-        for k, each in enumerate(maps):
-            if not (each is None or isinstance(each, CycleMap)):
-                raise inputs.rejected(f"cycle[{k}]", each, hint)
-        present = [each for each in maps if each is not None]
+        for k, cycle_map in enumerate(maps):
+            if not (cycle_map is None or isinstance(cycle_map, CycleMap)):
+                raise inputs.rejected(f"cycle[{k}]", cycle_map, hint)
+        present = [cycle_map for cycle_map in maps if cycle_map is not None]
         if not present:
             raise inputs.rejected("cycle", cycle, "has no map; leave it out")
         for axis in ("rpm", "load"):
@@ -62,12 +62,12 @@ class GasMap(Record):
     @property
     def first(self) -> CycleMap:
         """One of the maps: all have its speeds and loads."""
-        return next(each for each in self.maps if each is not None)
+        return next(cycle_map for cycle_map in self.maps if cycle_map is not None)
 
     def loads_counted(self, engines: Sequence[Engine], titles: Sequence[str]) -> str:
         """Return the loads that results of engines with this gas pressure count, in words."""
-        distinct = {each for each in self.maps if each is not None}
-        names = ["cycle map" if each is not None else None for each in self.maps]
+        distinct = {cycle_map for cycle_map in self.maps if cycle_map is not None}
+        names = ["cycle map" if cycle_map is not None else None for cycle_map in self.maps]
         further = labels.without_gas(labels.loads_of(engines, titles))
         words = filter(None, [labels.gas_text(names, len(distinct)), further])
         return labels.Loads("; ".join(words), further)
@@ -76,9 +76,9 @@ class GasMap(Record):
     def _distinct(self) -> list[CycleMap]:
         """Maps that differ."""
         distinct: list[CycleMap] = []
-        for each in self.maps:
-            if each is not None and each not in distinct:
-                distinct.append(each)
+        for cycle_map in self.maps:
+            if cycle_map is not None and cycle_map not in distinct:
+                distinct.append(cycle_map)
         return distinct
 
     @cached_property
@@ -89,7 +89,7 @@ class GasMap(Record):
     def fired(self, engines: Sequence[Engine]) -> list[_core.Engine]:
         """Return each engine with the cycles of the lowest speed and load."""
         places = self._distinct.index
-        cycle_of = [None if each is None else places(each) for each in self.maps]
+        cycle_of = [None if cycle_map is None else places(cycle_map) for cycle_map in self.maps]
         return [
             engine._core.with_cycles(
                 self._cycles[0],
@@ -110,7 +110,10 @@ class GasMap(Record):
 
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:
         """Return an engine with its cycles at a speed and a load."""
-        cycles = [None if each is None else each.at(rpm=rpm, load=load) for each in self.maps]
+        cycles = [
+            None if cycle_map is None else cycle_map.at(rpm=rpm, load=load)
+            for cycle_map in self.maps
+        ]
         return engine.with_cycle(self._of_each(cycles, engine), crankcase=self.crankcase)
 
     def _of_each(self, cycles: list[Item], engine: Engine) -> list[Item]:

@@ -39,9 +39,9 @@ if TYPE_CHECKING:
     from crankpin.model.cycle_map import CycleMap
     from crankpin.model.engine import Hold
 
-AXES = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm", "load")
+SWEEP_DIMS = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm", "load")
 """Dimensions after "engine", in the order of results."""
-MOST_SHOWN = 1000
+MOST_POINTS_SHOWN = 1000
 """Points of a sweep whose values are shown: more would take long to compute at a prompt."""
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
@@ -145,8 +145,8 @@ def sweep(
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], rtol=1e-3, torque=False).orders
     (1, 2, 4, 6)
     """
-    shown = progress_bar.checked(progress)
-    listed, names = _listed(engines)
+    bar = progress_bar.checked(progress)
+    engine_list, names = _listed(engines)
     arguments = {
         "bank_angle_deg": bank_angle_deg,
         "rod_ratio": rod_ratio,
@@ -168,8 +168,8 @@ def sweep(
     if cycle is None and crankcase is not None:
         hint = "applies to a cycle map; engine.with_cycle(…, crankcase=…) has that of an engine"
         raise inputs.rejected("crankcase", crankcase, hint)
-    maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
-    whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
+    maps = None if cycle is None else GasMap.checked(cycle, engine_list, crankcase)
+    whole = Sweep(tuple(engine_list), names, axes, held, request, maps, bar)
     inputs.warn_of_units(whole.mean_piston_speed)
     # The last value alone shows radians: a sweep in degrees passes parts of a turn in radians.
     angles = axes.get("bank_angle_deg")
@@ -223,7 +223,7 @@ class Sweep(ByOrder[Any]):
             name: values if isinstance(values, np.ndarray) else np.array([values])
             for name, values in self.axes.items()
         }
-        swept = [isinstance(self.axes.get(name), np.ndarray) for name in AXES]
+        swept = [isinstance(self.axes.get(name), np.ndarray) for name in SWEEP_DIMS]
         cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
             cores if self.gas_map is None else self.gas_map.fired(self.engines),
@@ -286,14 +286,14 @@ class Sweep(ByOrder[Any]):
         if self.names is not None:
             pairs = zip(self.names, self.engines, strict=True)
             coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
-        swept = {name: self.axes.get(name) for name in AXES}
-        coords |= {name: each for name, each in swept.items() if isinstance(each, np.ndarray)}
+        swept = {name: self.axes.get(name) for name in SWEEP_DIMS}
+        coords |= {name: values for name, values in swept.items() if isinstance(values, np.ndarray)}
         return read_only(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
-        values = {name: self.axes[name] for name in AXES if name in self.axes}
+        values = {name: self.axes[name] for name in SWEEP_DIMS if name in self.axes}
         return read_only(
             {name: float(value) for name, value in values.items() if name not in self.dims}
         )
@@ -325,9 +325,9 @@ class Sweep(ByOrder[Any]):
         with progress_bar.shown(self._progress, f"{quantity}, {what}") as report:
             if what == VALUES:
                 return self._core.phasors(quantity, False, report)
-            if what in labels.TURNING:
+            if what in labels.TURNING_WORDS:
                 both = read_only(self._core.phasors(quantity, True, report))
-                for k, part in enumerate(labels.TURNING):  # computed together
+                for k, part in enumerate(labels.TURNING_WORDS):  # computed together
                     self._kept.setdefault((quantity, part), read_only(both[..., k]))
                 return self._kept[quantity, what]  # type: ignore[no-any-return]
             planar = kind_of(quantity).planar
@@ -605,7 +605,7 @@ class Sweep(ByOrder[Any]):
 
     @property
     def _brief(self) -> str:
-        if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
+        if math.prod(len(values) for values in self.coords.values()) <= MOST_POINTS_SHOWN:
             return ""
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         loads = f", {self.loads_counted}" if self.loads_counted else ""

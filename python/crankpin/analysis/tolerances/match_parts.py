@@ -30,7 +30,7 @@ WORDS = {
     "spread": "largest less smallest sum of piston and small end",
 }
 """Objective → its description."""
-UNITS = {"balance": "kg·m", "spread": "kg"}
+UNIT_BY_OBJECTIVE = {"balance": "kg·m", "spread": "kg"}
 """Objective → unit."""
 MOST_PARTS = 1000
 STARTS = 24
@@ -102,7 +102,7 @@ class MeasuredParts(Record):
 
 def assignment_of(*chosen: NDArray[np.intp]) -> Assignment:
     """Return the numbers of parts whose places in their lists are given."""
-    numbers = [tuple((each + 1).tolist()) for each in chosen]
+    numbers = [tuple((places + 1).tolist()) for places in chosen]
     return Assignment(numbers[0], numbers[1] if len(numbers) > 1 else None)
 
 
@@ -193,7 +193,7 @@ def match_parts(
                 f"has {len(parts)} entries",
                 f"the engine has {count} cylinders; give one for each, or more",
             )
-    several = min(len(each) for each in (masses, ends) if each is not None) // count
+    several = min(len(parts) for parts in (masses, ends) if parts is not None) // count
     wanted = several if sets is None else inputs.whole("sets", sets)
     if not 1 <= wanted <= several:
         parts_text = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
@@ -204,12 +204,12 @@ def match_parts(
         )
     if by == "spread" and orders is not None:
         raise inputs.rejected("orders", orders, 'needs by="balance"; leave it out')
-    listed = inputs.explicit_orders((1, 2) if orders is None else orders)
+    chosen_orders = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
-    shown = progress_bar.checked(progress)
+    bar = progress_bar.checked(progress)
     checks.masses(core, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
-    measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
-    chosen, bound, exact = _matched(measured, by, wanted, start, shown)
+    measured = MeasuredParts(engine, masses[:, 0], ends, tuple(chosen_orders))
+    chosen, bound, exact = _matched(measured, by, wanted, start, bar)
     return Match(measured, by, chosen, bound, exact)
 
 
@@ -273,12 +273,12 @@ class Match(Tabled):
     @property
     def unit(self) -> str:
         """Unit of the objective: kg·m (over ω²) or kg."""
-        return UNITS[self.by]
+        return UNIT_BY_OBJECTIVE[self.by]
 
     @cached_property
     def values(self) -> tuple[float, ...]:
         """Objective of each engine."""
-        return tuple(self.parts.value(self.by, each) for each in self.assignment)
+        return tuple(self.parts.value(self.by, engine_parts) for engine_parts in self.assignment)
 
     @property
     def value(self) -> float:
@@ -292,9 +292,9 @@ class Match(Tabled):
         engines = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
         return sum(
             self.parts.value(
-                self.by, assignment_of(*([each] * (1 if self.parts.rods is None else 2)))
+                self.by, assignment_of(*([engine] * (1 if self.parts.rods is None else 2)))
             )
-            for each in engines
+            for engine in engines
         )
 
     @cached_property
@@ -302,7 +302,7 @@ class Match(Tabled):
         """The engines with their parts: masses are the engine's own and the parts' deviations."""
         pistons = self.parts.pistons
         below = float(pistons.mean() - pistons.min())  # at least 0
-        lightest = min(each.reciprocating_mass for each in self.engine.cylinders)
+        lightest = min(cylinder.reciprocating_mass for cylinder in self.engine.cylinders)
         if below > lightest:
             hint = (
                 f"the lightest is {below:.4g} kg below their mean, which stands for the engine's "
@@ -312,17 +312,17 @@ class Match(Tabled):
         several = len(self.assignment) > 1
         return tuple(
             self.parts.engine_of(
-                each, f"{self.engine.name}, set {k}" if several else self.engine.name
+                engine_parts, f"{self.engine.name}, set {k}" if several else self.engine.name
             )
-            for k, each in enumerate(self.assignment, start=1)
+            for k, engine_parts in enumerate(self.assignment, start=1)
         )
 
     @property
     def unused(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Numbers of the pistons and of the rods that are left."""
         rods = () if self.parts.rods is None else self.parts.rods
-        pistons_used = {k for each in self.assignment for k in each.pistons}
-        rods_used = {k for each in self.assignment for k in each.rods or ()}
+        pistons_used = {k for engine_parts in self.assignment for k in engine_parts.pistons}
+        rods_used = {k for engine_parts in self.assignment for k in engine_parts.rods or ()}
         return (
             tuple(k for k in range(1, len(self.parts.pistons) + 1) if k not in pistons_used),
             tuple(k for k in range(1, len(rods) + 1) if k not in rods_used),
@@ -350,9 +350,9 @@ class Match(Tabled):
             columns.append(Column("small end", tuple(small), "kg"))
             columns.append(Column("big end", tuple(big), "kg"))
         none = f"none is below {self.bound:.4g} {self.unit}"
-        known = "no assignment is better" if self.exact else none
+        proof = "no assignment is better" if self.exact else none
         before, after = (
             units.figure(value, self.unit, 4) for value in (self.initial_value, self.value)
         )
-        title = units.Text(f"{WORDS[self.by]}: ", after, f", {known}; as given ", before)
+        title = units.Text(f"{WORDS[self.by]}: ", after, f", {proof}; as given ", before)
         return Table(title, tuple(columns))

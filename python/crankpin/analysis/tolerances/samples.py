@@ -55,7 +55,7 @@ def names_of(by: object, request: Request) -> tuple[str, ...]:
         ]
         named = ["total.force.peak", "total.moment.peak", *torque]
         return (*named, *(first if 1 in (request.orders or ()) else []))
-    names = tuple(each.label for each in objectives.listed(by))
+    names = tuple(objective.label for objective in objectives.listed(by))
     for name in names:
         _checked(name, request)
     return names
@@ -65,7 +65,7 @@ def _checked(name: str, request: Request) -> Objective:
     """Return an objective that has a value for each sample."""
     objective = objectives.named(name)
     if objective.of_sweep is None:
-        named = ", ".join(f'"{each}"' for each in objectives.COMMON[:3])
+        named = ", ".join(f'"{example}"' for example in objectives.COMMON[:3])
         hint = f"has no value for each sample; give names such as {named}"
         raise inputs.rejected("by", name, hint)
     if objective.order is not None and objective.order not in (request.orders or ()):
@@ -158,14 +158,16 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         if orders == self._request.orders:
             hint = "moments of samples are; give the tolerances of engine.replace(reference_z=…)"
             raise inputs.faulty("point", "is not in the engine's plane", hint)
-        known = labels.orders_text(self.orders)
-        raise inputs.rejected("orders", orders, f"is not among those of the samples ({known})")
+        orders_text = labels.orders_text(self.orders)
+        raise inputs.rejected(
+            "orders", orders, f"is not among those of the samples ({orders_text})"
+        )
 
     @property
     def spreads(self) -> Mapping[str, tuple[float, ...]]:
         """Figure → its spread in each cylinder or crankpin, of those that were given."""
         values = self.figures.values
-        return {name: each for name, each in zip(FIGURES, values, strict=True) if each}
+        return {name: draws for name, draws in zip(FIGURES, values, strict=True) if draws}
 
     @property
     def distribution(self) -> Distribution:
@@ -188,7 +190,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         return ()
 
     def _readings(self, quantity: str) -> tuple[str, ...]:
-        return tuple(each for each in super()._readings(quantity) if each != "cycle_mean")
+        return tuple(reading for reading in super()._readings(quantity) if reading != "cycle_mean")
 
     @property
     def _has_means(self) -> bool:

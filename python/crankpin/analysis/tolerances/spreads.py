@@ -76,13 +76,13 @@ class Spreads:
         """Return the spreads of one figure, the others zero."""
         pairs = zip(FIGURES, self.values, strict=True)
         return dataclasses.replace(
-            self, values=tuple(values if each == name else () for each, values in pairs)
+            self, values=tuple(values if figure == name else () for figure, values in pairs)
         )
 
     @property
     def given(self) -> tuple[str, ...]:
         """Names of the figures that spread."""
-        return tuple(name for name, each in zip(FIGURES, self.values, strict=True) if each)
+        return tuple(name for name, widths in zip(FIGURES, self.values, strict=True) if widths)
 
     @property
     def pin_of(self) -> list[int]:
@@ -149,7 +149,7 @@ def _pins(engine: Engine, groups: Iterable[Iterable[int]]) -> tuple[tuple[int, .
     return pins
 
 
-PIECE = 2**20
+PIECE_DRAWS = 2**20
 """Random numbers drawn between checks for Ctrl-C."""
 
 
@@ -160,10 +160,10 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
     a sample does not depend on how many follow, nor on what else spreads.
     """
     deviations, numbers = {}, lazy.imported("numpy.random")
-    for stream, (name, each) in enumerate(zip(FIGURES, spreads.values, strict=True)):
+    for stream, (name, widths) in enumerate(zip(FIGURES, spreads.values, strict=True)):
         random = numbers.default_rng(numbers.SeedSequence(seed, spawn_key=(stream,)))
-        values = np.empty((samples if each else 0, len(each)))
-        rows = PIECE // max(len(each), 1)
+        values = np.empty((samples if widths else 0, len(widths)))
+        rows = PIECE_DRAWS // max(len(widths), 1)
         for start in range(0, len(values), rows):
             piece = values[start : start + rows]
             if spreads.distribution == "normal":
@@ -172,7 +172,7 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
                 random.random(out=piece)
                 piece *= 2.0
                 piece -= 1.0
-            piece *= each
+            piece *= widths
         values.setflags(write=False)
         deviations[name] = values
     return deviations

@@ -154,11 +154,11 @@ def tolerances(
     speed = inputs.number("rpm", rpm)
     bound = (0.0, 0.0, 0.0)
     if request.orders is None:
-        kept, bound = _core.orders_of_samples(engine._core, speed, request.rtol, request.torque)
-        request = request.at_orders(tuple(kept))
-    shown = names_of(by, request)
+        needed, bound = _core.orders_of_samples(engine._core, speed, request.rtol, request.torque)
+        request = request.at_orders(tuple(needed))
+    names = names_of(by, request)
     report = progress_bar.checked(progress)
-    result = Tolerances(engine, speed, spreads, count, start, request, bound, shown)
+    result = Tolerances(engine, speed, spreads, count, start, request, bound, names)
     result.evaluate(report)
     inputs.warn_of_units(mean_piston_speed(engine, speed))
     return result
