@@ -70,14 +70,14 @@ type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 
 /// A crankpin: numbers of its cylinders, its place, m, and index of its crank.
 #[derive(IntoPyObject)]
-struct Pin<'py> {
+struct PinFigures<'py> {
     cylinders: Bound<'py, PyTuple>,
     pin_deg: f64,
     z: f64,
     crank: usize,
 }
 
-impl<'py> Pin<'py> {
+impl<'py> PinFigures<'py> {
     fn new(py: Python<'py>, pin: &Crankpin) -> PyResult<Self> {
         let cylinders = PyTuple::new(py, numbers(&pin.cylinders))?;
         let (pin_deg, crank) = (pin.pin.degrees(), pin.crank.position());
@@ -533,8 +533,9 @@ impl Engine {
     }
 
     /// Crankpins from front to flywheel, those of one throw a list.
-    fn throws<'py>(&self, py: Python<'py>) -> PyResult<Vec<Vec<Pin<'py>>>> {
-        let throw = |throw: Vec<Crankpin>| throw.iter().map(|pin| Pin::new(py, pin)).collect();
+    fn throws<'py>(&self, py: Python<'py>) -> PyResult<Vec<Vec<PinFigures<'py>>>> {
+        let throw =
+            |throw: Vec<Crankpin>| throw.iter().map(|pin| PinFigures::new(py, pin)).collect();
         self.0.throws().into_iter().map(throw).collect()
     }
 
@@ -545,8 +546,8 @@ impl Engine {
     }
 
     /// The crankpins from front to flywheel.
-    fn crankpins<'py>(&self, py: Python<'py>) -> PyResult<Vec<Pin<'py>>> {
-        self.0.crankpins().iter().map(|pin| Pin::new(py, pin)).collect()
+    fn crankpins<'py>(&self, py: Python<'py>) -> PyResult<Vec<PinFigures<'py>>> {
+        self.0.crankpins().iter().map(|pin| PinFigures::new(py, pin)).collect()
     }
 
     /// The bays of all cranks.
