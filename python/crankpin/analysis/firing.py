@@ -162,8 +162,7 @@ class Firing(Tabled):
         >>> [list(gaps.values()) for gaps in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
         [[180.0, 180.0, 180.0, 180.0], [180.0, 180.0, 180.0, 180.0]]
         """
-        gaps = self._core.gaps(_groups(groups))
-        return tuple({(first, then): gap for first, then, gap in group} for group in gaps)
+        return tuple(map(dict, self._core.gaps(_groups(groups))))
 
     @documented(gaps)
     def exhaust_overlaps(
@@ -199,7 +198,7 @@ class Firing(Tabled):
         """
         kind = PortTiming if self.strokes == 2 else ValveTiming
         overlaps = self._core.overlaps(_groups(groups), angles(timing, kind))
-        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in overlaps)
+        return tuple(map(dict, overlaps))
 
     # --- strokes and valves ---------------------------------------------------------------------
 

@@ -62,18 +62,12 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
     on one throw. Those of them whose pins are at one place share a crankpin; a throw has several
     where pins are split, and in a boxer.
     """
-    return [
-        [Crankpin(tuple(cylinders), pin_deg, z, crank) for cylinders, pin_deg, z, crank in throw]
-        for throw in engine._core.throws()
-    ]
+    return [[Crankpin(**pin) for pin in throw] for throw in engine._core.throws()]
 
 
 def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
     """Return the crankpins from front to flywheel."""
-    return tuple(
-        Crankpin(tuple(cylinders), pin_deg, z, crank)
-        for cylinders, pin_deg, z, crank in engine._core.crankpins()
-    )
+    return tuple(Crankpin(**pin) for pin in engine._core.crankpins())
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
@@ -81,7 +75,4 @@ def bays(engine: Engine) -> tuple[Bay, ...]:
 
     Throws at one place are one.
     """
-    return tuple(
-        Bay(tuple(cylinders), tuple(throws), (front, rear), crank)
-        for cylinders, throws, (front, rear), crank in engine._core.bays()
-    )
+    return tuple(Bay(**bay) for bay in engine._core.bays())

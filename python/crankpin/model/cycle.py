@@ -130,8 +130,7 @@ class Cycle(Tabled, Input, ComputedCycles):
     @classmethod
     def _of(cls, core: _core.Cycle, origin: str = "") -> Self:
         """Return the cycle of what the core has."""
-        theta_deg, pressure, strokes, name, degree = core.points
-        return cls(theta_deg, pressure, strokes, name, degree, origin)
+        return cls(**core.points, origin=origin)
 
     @functools.cached_property
     def _core(self) -> _core.Cycle:

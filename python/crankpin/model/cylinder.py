@@ -535,21 +535,21 @@ class Rod(Input):
         for field in dataclasses.fields(self):
             value = inputs.number(field.name, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
-        _core.rod_parts(self._figures)
+        _ = self._masses
 
     @property
-    def _figures(self) -> tuple[float, float, float, float]:
-        return (self.mass, self.inertia, self.length, self.to_crankpin)
+    def _masses(self) -> _core._RodParts:
+        return _core.rod_parts(self.mass, self.inertia, self.length, self.to_crankpin)
 
     @property
     def reciprocating_mass(self) -> float:
         """Mass that moves with the piston, m·a/l, kg."""
-        return _core.rod_parts(self._figures)[0]
+        return self._masses["reciprocating_mass"]
 
     @property
     def rotating_mass(self) -> float:
         """Mass that turns with the crankpin, m·(l - a)/l, kg."""
-        return _core.rod_parts(self._figures)[1]
+        return self._masses["rotating_mass"]
 
     @property
     def inertia_excess(self) -> float:
@@ -557,7 +557,7 @@ class Rod(Input):
 
         Zero where the two are equal within rounding.
         """
-        return _core.rod_parts(self._figures)[2]
+        return self._masses["inertia_excess"]
 
 
 def rod_length(crank_radius: float, rod_ratio: float) -> float:

@@ -264,8 +264,8 @@ proptest! {
                 expected += Complex64::cis(lag.to_radians()) * amplitude * weight;
                 size += (2.0 + station.rotating_mass) * weight;
             }
-            let at = found.orders.iter().position(|&one| one == Order::whole(order).unwrap());
-            let force = at.map_or(Complex64::default(), |k| found.planar(Vector::Force, k).forward);
+            let at = found.order(Order::whole(order).unwrap());
+            let force = at.map_or(Complex64::default(), |wrench| wrench.force.forward);
             // Degrees of phases to radians, and orders below the tolerance.
             prop_assert!((force - expected).norm() <= 1e-11 * size, "{order} {force} {expected}");
         }

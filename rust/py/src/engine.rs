@@ -56,17 +56,33 @@ where
 pub type Weight = (f64, String, f64, Option<usize>, usize);
 /// The same, its angle read.
 type GivenWeight = (f64, Angle, f64, Option<usize>, usize);
-/// Numbers of the cylinders, places of the throws and of the bearings, index of the crank.
-type BayLists = (Vec<usize>, Vec<f64>, [f64; 2], usize);
+/// A bay: numbers of its cylinders, places, m, and index of its crank.
+#[derive(IntoPyObject)]
+struct Bay<'py> {
+    cylinders: Bound<'py, PyTuple>,
+    throws: Bound<'py, PyTuple>,
+    bearings: (f64, f64),
+    crank: usize,
+}
 
 /// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
 
-/// Numbers of the cylinders on a crankpin, its direction in degrees, its place in m, index of its crank.
-type Pin = (Vec<usize>, f64, f64, usize);
+/// A crankpin: numbers of its cylinders, its place, m, and index of its crank.
+#[derive(IntoPyObject)]
+struct PinFigures<'py> {
+    cylinders: Bound<'py, PyTuple>,
+    pin_deg: f64,
+    z: f64,
+    crank: usize,
+}
 
-fn pin(pin: &Crankpin) -> Pin {
-    (numbers(&pin.cylinders), pin.pin.degrees(), pin.z, pin.crank.position())
+impl<'py> PinFigures<'py> {
+    fn new(py: Python<'py>, pin: &Crankpin) -> PyResult<Self> {
+        let cylinders = PyTuple::new(py, numbers(&pin.cylinders))?;
+        let (pin_deg, crank) = (pin.pin.degrees(), pin.crank.position());
+        Ok(Self { cylinders, pin_deg, z: pin.z, crank })
+    }
 }
 
 /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of its own.
@@ -517,8 +533,9 @@ impl Engine {
     }
 
     /// Crankpins from front to flywheel, those of one throw a list.
-    fn throws(&self) -> Vec<Vec<Pin>> {
-        let throw = |throw: Vec<Crankpin>| throw.iter().map(pin).collect();
+    fn throws<'py>(&self, py: Python<'py>) -> PyResult<Vec<Vec<PinFigures<'py>>>> {
+        let throw =
+            |throw: Vec<Crankpin>| throw.iter().map(|pin| PinFigures::new(py, pin)).collect();
         self.0.throws().into_iter().map(throw).collect()
     }
 
@@ -529,15 +546,18 @@ impl Engine {
     }
 
     /// The crankpins from front to flywheel.
-    fn crankpins(&self) -> Vec<Pin> {
-        self.0.crankpins().iter().map(pin).collect()
+    fn crankpins<'py>(&self, py: Python<'py>) -> PyResult<Vec<PinFigures<'py>>> {
+        self.0.crankpins().iter().map(|pin| PinFigures::new(py, pin)).collect()
     }
 
     /// The bays of all cranks.
-    fn bays(&self) -> Vec<BayLists> {
-        let bays = self.0.bays().into_iter();
-        bays.map(|bay| (numbers(&bay.cylinders), bay.throws, bay.bearings, bay.crank.position()))
-            .collect()
+    fn bays<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bay<'py>>> {
+        let bay = |bay: core::engine::crankpins::Bay| {
+            let cylinders = PyTuple::new(py, numbers(&bay.cylinders))?;
+            let (throws, crank) = (PyTuple::new(py, bay.throws)?, bay.crank.position());
+            Ok(Bay { cylinders, throws, bearings: bay.bearings.into(), crank })
+        };
+        self.0.bays().into_iter().map(bay).collect()
     }
 
     #[getter]

@@ -27,8 +27,8 @@ type Groups = Option<Vec<Vec<usize>>>;
 /// Two arrays.
 type Two<'py, A> = (Bound<'py, A>, Bound<'py, A>);
 
-/// Cylinders by number, crank angle between them and of both together.
-type Overlap = (usize, usize, f64, f64);
+/// Numbers of two cylinders, and degrees between them or of both together.
+type Pair = ((usize, usize), f64);
 
 /// Opening and closing angles of valves or ports.
 fn timing(angles: Vec<Angle>) -> PyResult<Timing> {
@@ -155,9 +155,9 @@ impl Firing {
         self.0.banks().iter().map(|bank| numbers(bank)).collect()
     }
 
-    fn gaps(&self, groups: Groups) -> PyResult<Vec<Vec<(usize, usize, f64)>>> {
+    fn gaps(&self, groups: Groups) -> PyResult<Vec<Vec<Pair>>> {
         let groups = self.0.groups(groups.as_deref()).or_raise()?;
-        let figures = |gap: &firing::Gap| (gap.before + 1, gap.after + 1, gap.gap.degrees());
+        let figures = |gap: &firing::Gap| ((gap.before + 1, gap.after + 1), gap.gap.degrees());
         let found = self.0.gaps(&groups);
         Ok(found.iter().map(|gaps| gaps.iter().map(figures).collect()).collect())
     }
@@ -176,13 +176,12 @@ impl Firing {
         Ok((periods(py, &intake)?, periods(py, &exhaust)?))
     }
 
-    fn overlaps(&self, groups: Groups, given: Vec<Angle>) -> PyResult<Vec<Vec<Overlap>>> {
+    fn overlaps(&self, groups: Groups, given: Vec<Angle>) -> PyResult<Vec<Vec<Pair>>> {
         let [_, exhaust] = self.0.open(&timing(given)?).or_raise()?;
         let groups = self.0.groups(groups.as_deref()).or_raise()?;
         let found = self.0.overlaps(&groups, &exhaust);
-        let figures = |each: &firing::Overlap| {
-            (each.before + 1, each.after + 1, each.gap.degrees(), each.overlap.degrees())
-        };
+        let figures =
+            |both: &firing::Overlap| ((both.before + 1, both.after + 1), both.overlap.degrees());
         Ok(found.iter().map(|overlaps| overlaps.iter().map(figures).collect()).collect())
     }
 }

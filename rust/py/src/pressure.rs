@@ -94,9 +94,15 @@ pub fn repeats_first(
     Ok(core::crank_angles::repeats_first(theta_deg, period_deg))
 }
 
-/// Values of each point, as the core keeps them.
-type Points<'py> =
-    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, u32, String, Option<usize>);
+/// What a cycle is made of.
+#[derive(IntoPyObject)]
+struct Points<'py> {
+    theta_deg: Bound<'py, PyArray1<f64>>,
+    pressure: Bound<'py, PyArray1<f64>>,
+    strokes: u32,
+    name: String,
+    degree: Option<usize>,
+}
 
 #[guarded]
 #[pymethods]
@@ -118,18 +124,11 @@ impl Cycle {
         core::Cycle::new(given).or_raise().map(Self::from)
     }
 
-    /// Crank angles, pressures, strokes, name and degree.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Points<'py>> {
-        let given = self.0.given();
-        let array = |values: &[f64]| frozen(py, ndarray::Array1::from(values.to_vec()));
-        Ok((
-            array(&given.theta_deg)?,
-            array(&given.pressure)?,
-            given.strokes,
-            given.name.clone(),
-            given.degree,
-        ))
+        let Given { name, strokes, theta_deg, pressure, degree } = self.0.given().clone();
+        let theta_deg = frozen(py, theta_deg.into())?;
+        Ok(Points { theta_deg, pressure: frozen(py, pressure.into())?, strokes, name, degree })
     }
 
     /// Polytropic curves and ideal combustion.

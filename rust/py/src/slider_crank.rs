@@ -40,14 +40,21 @@ pub fn estimated_rod_inertia(mass: f64, length: f64, to_crankpin: f64) -> PyResu
     rod::Rod::estimated(mass, length, to_crankpin).or_raise().map(|rod| rod.inertia())
 }
 
-/// Reciprocating mass, rotating mass and excess of inertia of a rod: mass, inertia, length, distance
-/// of the centre of mass from the crankpin.
+/// What a rod is replaced by.
+#[derive(IntoPyObject)]
+struct RodParts {
+    reciprocating_mass: f64,
+    rotating_mass: f64,
+    inertia_excess: f64,
+}
+
+/// The parts of a rod, from the distance of its centre of mass from the crankpin.
 #[guarded]
 #[pyfunction]
-pub fn rod_parts(rod: (f64, f64, f64, f64)) -> PyResult<(f64, f64, f64)> {
-    let (mass, inertia, length, to_crankpin) = rod;
+pub fn rod_parts(mass: f64, inertia: f64, length: f64, to_crankpin: f64) -> PyResult<RodParts> {
     let rod = rod::Rod::new(mass, inertia, length, to_crankpin).or_raise()?;
-    Ok((rod.reciprocating_mass(), rod.rotating_mass(), rod.inertia_excess()))
+    let (reciprocating_mass, rotating_mass) = (rod.reciprocating_mass(), rod.rotating_mass());
+    Ok(RodParts { reciprocating_mass, rotating_mass, inertia_excess: rod.inertia_excess() })
 }
 
 /// Distance between the ends of a piston's travel, m.

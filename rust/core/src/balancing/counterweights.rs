@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::bob_weight::with_bob_weights;
 use super::least_squares::least_squares;
 use super::shafts::unbalance;
-use super::weights::{Minimise, SOLVED, WeightRequest, complex, least, vectors};
+use super::weights::{Minimise, SOLVED, Vectors, WeightRequest, complex, least, vectors};
 use super::{TurningPart, VALUE_ROUNDING, turning, without_rounding};
 use crate::Complex64;
 use crate::engine::crankpins::Bay;
@@ -475,23 +475,7 @@ fn keep_sums(
     let own: Vec<&Bay> =
         bays.iter().filter(|bay| engine.cranks()[bay.crank].ratio == ratio).collect();
     let planes: Vec<usize> = own.iter().flat_map(|bay| inside(bay, fit)).collect();
-    let (mut rows, mut target) = (Vec::new(), Vec::new());
-    for bay in &own {
-        let [wanted] = fit.wanted(&engine.of_bay(bay)?, ratio, &[alone(bay)], cancel)?[..] else {
-            continue;
-        };
-        let (here, length) = (inside(bay, fit), fit.length.unwrap_or_else(|| half(bay)));
-        for (vector, wanted) in wanted.into_iter().enumerate() {
-            let Some(wanted) = wanted else { continue };
-            target.push(if vector == 0 { wanted } else { -Complex64::i() * wanted / length });
-            for plane in &planes {
-                let z = fit.planes[*plane].z;
-                let is_here = here.contains(plane);
-                rows.push(if is_here { lever(vector, z, bay.z(), length) } else { 0.0 });
-            }
-        }
-    }
-    let rows = DMatrix::from_row_slice(target.len(), planes.len(), &rows);
+    let (rows, target) = bay_equations(engine, fit, &own, &planes, ratio, cancel)?;
     let (reference, length) = (engine.reference(None)?, fit.compared(engine)?);
     let sums: Vec<usize> = (0..2).filter(|&vector| kept[vector]).collect();
     let sums = DMatrix::from_fn(sums.len(), planes.len(), |row, k| {
@@ -501,7 +485,6 @@ fn keep_sums(
     let values = SingularValues::of(&sums);
     let changing = values.right.rows(0, values.rank(super::least_squares::RANK_TOLERANCE));
     let across = DMatrix::identity(planes.len(), planes.len()) - changing.transpose() * changing;
-    let target = vectors(&target);
     let mut seen = &rows * &across;
     if seen.amax() <= VALUE_ROUNDING * rows.amax() {
         seen.fill(0.0); // no weights change a bay and no sum
@@ -533,6 +516,35 @@ fn keep_sums(
         }
     }
     Ok(())
+}
+
+/// Forces and moments of bays by the weights of planes, and what these should be.
+fn bay_equations(
+    engine: &Engine,
+    fit: &Fit,
+    bays: &[&Bay],
+    planes: &[usize],
+    ratio: SpeedRatio,
+    cancel: &Cancel,
+) -> Result<(DMatrix<f64>, Vectors)> {
+    let (mut rows, mut target) = (Vec::new(), Vec::new());
+    for bay in bays {
+        let [wanted] = fit.wanted(&engine.of_bay(bay)?, ratio, &[alone(bay)], cancel)?[..] else {
+            continue;
+        };
+        let (here, length) = (inside(bay, fit), fit.length.unwrap_or_else(|| half(bay)));
+        for (vector, wanted) in wanted.into_iter().enumerate() {
+            let Some(wanted) = wanted else { continue };
+            target.push(if vector == 0 { wanted } else { -Complex64::i() * wanted / length });
+            for plane in planes {
+                let z = fit.planes[*plane].z;
+                let is_here = here.contains(plane);
+                rows.push(if is_here { lever(vector, z, bay.z(), length) } else { 0.0 });
+            }
+        }
+    }
+    let rows = DMatrix::from_row_slice(target.len(), planes.len(), &rows);
+    Ok((rows, vectors(&target)))
 }
 
 /// What each bay exerts on its main bearings, of what turns with its crank, over ω²; the moment about the

@@ -54,8 +54,7 @@ pub fn shared(forces: &[(Complex64, f64)], front: f64, rear: f64) -> [Complex64;
 /// the last cylinder, or the crank radius where they are at one place, or so near that levers over the
 /// distance between them would be no numbers.
 fn half_length(engine: &Engine) -> f64 {
-    let [first, last] = engine.ends();
-    let half = (last - first) / 2.0;
+    let half = engine.length() / 2.0;
     if half >= SMALLEST { half } else { engine.largest_crank_radius() }
 }
 

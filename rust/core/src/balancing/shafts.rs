@@ -248,8 +248,7 @@ fn fitted(ratio: SpeedRatio, unbalances: Vec<Unbalance>, reference: f64) -> Fitt
 /// Length of an engine, m: along the crank or of a crank and its rod, whichever is the larger; of an
 /// infinite rod the crank alone counts.
 fn size(engine: &Engine) -> f64 {
-    let [first, last] = engine.ends();
-    engine.distinct_cylinders().iter().map(Cylinder::reach).fold(last - first, f64::max)
+    engine.distinct_cylinders().iter().map(Cylinder::reach).fold(engine.length(), f64::max)
 }
 
 #[cfg(test)]

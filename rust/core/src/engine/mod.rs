@@ -451,6 +451,12 @@ impl Engine {
         [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
     }
 
+    /// Distance between the first and the last cylinder, m.
+    pub(crate) fn length(&self) -> f64 {
+        let [first, last] = self.ends();
+        last - first
+    }
+
     /// Largest distance of a cylinder or another place from the reference plane, m.
     pub(crate) fn longest_lever(&self, others: impl Iterator<Item = f64>) -> Result<f64> {
         let (reference, ends) = (self.reference(None)?, self.ends());

@@ -208,8 +208,7 @@ pub fn hardware(engine: &Engine, weights: &[Unbalance], shafts: &[Shaft]) -> Vec
 /// Of a place farther from a middle, along the crank or beside it, than any engine reaches, m.
 #[must_use]
 pub fn place(engine: &Engine, argument: &str, at: f64, middle: f64) -> Option<Warning> {
-    let [first, last] = engine.ends();
-    let distance = (at - middle).abs() - (last - first);
+    let distance = (at - middle).abs() - engine.length();
     let far =
         FARTHEST_IN_RADII * engine.largest_crank_radius() < distance && distance < f64::INFINITY;
     far.then(|| beside(argument, at, "m", engine, MILLIMETRES))

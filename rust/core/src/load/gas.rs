@@ -23,7 +23,7 @@ use crate::source::{
 #[derive(Debug, Clone)]
 pub(super) struct GasPressure {
     /// On a crank as fast as the main one, whose cycles these are.
-    pub mechanism: DrivenMechanism,
+    pub driven: DrivenMechanism,
     pub cycle: Arc<Cycle>,
     /// Its place among the cycles of the engine: those of a map may be equal at some speed and load alone.
     pub place: usize,
@@ -42,7 +42,7 @@ const INTEGRATED: [u32; 2] = [2 * 48, 2 * 192];
 impl GasPressure {
     /// Torques on the block and on the main crank.
     fn amplitudes(&self, GasTorque { mean, phasors }: GasTorque) -> TorqueAmplitudes {
-        let [on_block, _] = self.mechanism.senses();
+        let [on_block, _] = self.driven.senses();
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
         let harmonics = TorqueHarmonics { roll, crank: phasors };
         TorqueAmplitudes { harmonics, mean: [-on_block * mean, mean] }
@@ -53,8 +53,7 @@ impl GasPressure {
         let torque = |degrees: u32| {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             let pressure = self.cycle.pressure_deg(f64::from(degrees)) - self.crankcase;
-            (pressure * self.mechanism.mechanism.motion(&CrankPosition::new(sin, cos)).velocity)
-                .abs()
+            (pressure * self.driven.mechanism.motion(&CrankPosition::new(sin, cos)).velocity).abs()
         };
         (0..720).map(torque).fold(0.0, f64::max)
     }
@@ -62,9 +61,9 @@ impl GasPressure {
 
 impl PartialEq for GasPressure {
     fn eq(&self, other: &Self) -> bool {
-        let Self { mechanism, cycle, place, delay, crankcase } = self;
-        (mechanism, place, delay, crankcase)
-            == (&other.mechanism, &other.place, &other.delay, &other.crankcase)
+        let Self { driven, cycle, place, delay, crankcase } = self;
+        (driven, place, delay, crankcase)
+            == (&other.driven, &other.place, &other.delay, &other.crankcase)
             // Mostly it is one table, whose numbers need not be compared.
             && (Arc::ptr_eq(cycle, &other.cycle) || *cycle == other.cycle)
     }
@@ -88,19 +87,14 @@ impl Source for GasPressure {
     }
 
     fn mechanism(&self) -> Option<&DrivenMechanism> {
-        Some(&self.mechanism)
+        Some(&self.driven)
     }
 
     /// No bound of the rest is known before the orders below it are integrated.
     fn series(&self, up_to: UpTo, cancel: &Cancel) -> Result<Series> {
-        let Self { mechanism, cycle, crankcase, .. } = self;
+        let Self { driven, cycle, crankcase, .. } = self;
         let integrate = |halves: u32| {
-            cycle.torque_up_to(
-                &mechanism.mechanism,
-                *crankcase,
-                Order::from_halves(halves)?,
-                cancel,
-            )
+            cycle.torque_up_to(&driven.mechanism, *crankcase, Order::from_halves(halves)?, cancel)
         };
         let step = if self.parts().repeats == Repeats::EveryTurn { 2 } else { 1 };
         let ((torque, tails), highest) = match up_to {
@@ -132,14 +126,14 @@ impl Source for GasPressure {
     }
 
     fn is_integrated(&self, orders: &[Order]) -> bool {
-        let Self { mechanism, cycle, crankcase, .. } = self;
-        !cycle.keeps_torque_of(&mechanism.mechanism, *crankcase, orders)
+        let Self { driven, cycle, crankcase, .. } = self;
+        !cycle.keeps_torque_of(&driven.mechanism, *crankcase, orders)
     }
 
     /// The forces are internal, so that either torque balances the other.
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {
-        let Self { mechanism, cycle, crankcase, .. } = self;
-        let torque = cycle.torque_of(&mechanism.mechanism, *crankcase, orders, cancel)?;
+        let Self { driven, cycle, crankcase, .. } = self;
+        let torque = cycle.torque_of(&driven.mechanism, *crankcase, orders, cancel)?;
         Ok(self.amplitudes(torque))
     }
 
@@ -148,10 +142,10 @@ impl Source for GasPressure {
     }
 
     fn at_point(&self, point: &Point) -> Result<Option<Arc<dyn Source>>> {
-        let mechanism = self.mechanism.replaced(point.rod_ratio, point.pin_offset)?;
+        let driven = self.driven.replaced(point.rod_ratio, point.pin_offset)?;
         let met = |cycles: &[Arc<Cycle>]| cycles[self.place].delayed(self.delay);
         let cycle = point.cycles.map_or_else(|| Arc::clone(&self.cycle), met);
-        Ok(Some(Arc::new(Self { mechanism, cycle, ..*self })))
+        Ok(Some(Arc::new(Self { driven, cycle, ..*self })))
     }
 
     fn exact(&self) -> ExactFactor {
@@ -169,11 +163,11 @@ impl Source for GasPressure {
         if !wanted.torque {
             return Ok(());
         }
-        let [on_block, on_crank] = self.mechanism.senses();
+        let [on_block, on_crank] = self.driven.senses();
         let mut scratch = block.scratch();
         let [velocity, acceleration] = &mut *scratch;
         let motion = MotionColumns::of_both([velocity, acceleration]);
-        let mechanism = &self.mechanism.mechanism;
+        let mechanism = &self.driven.mechanism;
         block.with_cranks(SpeedRatio::ONE, sum.turned, |cranks| mechanism.motions(cranks, motion));
         for (i, (θ, velocity)) in block.degrees().iter().zip(&velocity[..]).enumerate() {
             let gauge = self.cycle.pressure_deg(θ - sum.phase_deg) - self.crankcase;

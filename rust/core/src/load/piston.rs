@@ -179,12 +179,12 @@ impl Source for PistonInertia {
 
 /// Multiples of the speed of a mechanism's crank, with bounds of what those above some halves add.
 pub(super) fn multiples(
-    mechanism: &DrivenMechanism,
+    driven: &DrivenMechanism,
     up_to: UpTo,
     rest: impl Fn(u32) -> Tail,
 ) -> Series {
-    let (step, highest) = (mechanism.ratio.halves_of_speed(), up_to.halves(&rest));
-    let own = 1..=mechanism.own_highest(highest);
+    let (step, highest) = (driven.ratio.halves_of_speed(), up_to.halves(&rest));
+    let own = 1..=driven.own_highest(highest);
     let orders = own.filter_map(|own| Order::from_halves(own * step).ok()).collect();
     Series::without_amplitudes(orders, rest(highest))
 }
@@ -193,13 +193,13 @@ pub(super) fn multiples(
 /// where all grow with the rod ratio, else that of the orders from each on.
 pub(super) fn sizes_up_to_own(
     source: &impl Source,
-    mechanism: &DrivenMechanism,
+    driven: &DrivenMechanism,
     (of, column): (HarmonicsOf, Column),
     orders: &[Order],
     rest: impl Fn(u32) -> Tail,
     cancel: &Cancel,
 ) -> Result<[Vec<f64>; 2]> {
-    if mechanism.mechanism.grows_with_rod_ratio(of) {
+    if driven.mechanism.grows_with_rod_ratio(of) {
         let TorqueHarmonics { roll, crank } = amplitudes(source, column, orders, cancel)?;
         return Ok([roll, crank].map(|values| values.iter().map(|value| value.norm()).collect()));
     }
@@ -207,7 +207,7 @@ pub(super) fn sizes_up_to_own(
         if order.as_whole().is_none() {
             return 0.0;
         }
-        let (own, halves) = (mechanism.own_highest(order.halves()), order.halves() - 1);
+        let (own, halves) = (driven.own_highest(order.halves()), order.halves() - 1);
         match column {
             Column::Force => rest(halves).force + f64::from(u8::from(own == 1)),
             Column::Roll if own < 3 => f64::INFINITY,
@@ -219,25 +219,25 @@ pub(super) fn sizes_up_to_own(
 }
 
 /// Bound of what own orders add to either torque on the main crank and the block from that on their own crank.
-pub(super) fn torque_beyond(mechanism: &DrivenMechanism, bound: Option<f64>) -> f64 {
-    bound.unwrap_or(f64::INFINITY) * mechanism.ratio.size()
+pub(super) fn torque_beyond(driven: &DrivenMechanism, bound: Option<f64>) -> f64 {
+    bound.unwrap_or(f64::INFINITY) * driven.ratio.size()
 }
 
 /// Torques of a mechanism on the block and on the main crank from those on its own crank.
 pub(super) fn torque_by(
-    mechanism: &DrivenMechanism,
+    driven: &DrivenMechanism,
     orders: &[Order],
     of: impl FnOnce(&[u32]) -> Result<TorqueHarmonics>,
 ) -> Result<TorqueAmplitudes> {
     let mut crank = Vec::new();
-    let mut roll = at_own_orders(mechanism.ratio, orders, |own| {
+    let mut roll = at_own_orders(driven.ratio, orders, |own| {
         let torque = of(own)?;
         crank = torque.crank;
         Ok(torque.roll)
     })?;
-    let mut crank = at_own_orders(mechanism.ratio, orders, |_| Ok(crank))?;
-    if mechanism.ratio != SpeedRatio::ONE {
-        let [on_block, on_crank] = mechanism.senses();
+    let mut crank = at_own_orders(driven.ratio, orders, |_| Ok(crank))?;
+    if driven.ratio != SpeedRatio::ONE {
+        let [on_block, on_crank] = driven.senses();
         for (roll, crank) in roll.iter_mut().zip(&mut crank) {
             *roll *= on_block;
             *crank *= on_crank;

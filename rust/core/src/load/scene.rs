@@ -101,7 +101,7 @@ impl Scene {
         let mut loads = Self { list, sources, groups, group_of, reference, crank_radius, kept };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let mechanisms = engine.distinct_cylinders().map_to(Cylinder::mechanism);
-        let mechanism = |i: usize| {
+        let driven = |i: usize| {
             let mechanism = Arc::clone(&mechanisms[engine.distinct_cylinder_of(i)]);
             DrivenMechanism { mechanism, ratio: ratio(i) }
         };
@@ -114,26 +114,10 @@ impl Scene {
             } else {
                 let cylinder = &engine.stations()[i].cylinder;
                 let (weight, roll) = (cylinder.mass_radius(), cylinder.mass_radius_squared());
-                loads.push(along_bore(i), PistonInertia(mechanism(i)), weight, roll);
+                loads.push(along_bore(i), PistonInertia(driven(i)), weight, roll);
             }
         }
-        for (origin, Unbalance { amount, angle, z, pin, crank }) in engine.crank_unbalances() {
-            let mut place = Place::on_main(origin, angle, z).on(engine.cranks()[crank]);
-            if let Some(i) = pin {
-                // A crankpin points along its bore at top dead centre.
-                let bore = engine.stations()[i].bank;
-                let ahead = if ratio(i).is_forward() { bore + angle } else { bore - angle };
-                place = Place::on_main(origin, ahead, z).of_cylinder(engine, i);
-            }
-            loads.push_unbalance(place, amount);
-        }
-        for (k, shaft) in engine.shafts().iter().enumerate() {
-            for unbalance in &shaft.unbalances {
-                let place = Place::on_main(Origin::Shaft(k), unbalance.angle, unbalance.z)
-                    .on(Crank { axis: shaft.axis, ratio: shaft.ratio });
-                loads.push_unbalance(place, unbalance.amount);
-            }
-        }
+        loads.push_unbalances(engine);
         super::given::push(&mut loads, engine);
         if engine.spectrum().is_some() {
             // A spectrum does not determine a motion, against which pressure and rods would act.
@@ -145,7 +129,7 @@ impl Scene {
                 pressure.zip(engine.swept_by_radius(i))
             {
                 let delay = engine.chamber_delay(i).unwrap_or(Angle::ZERO);
-                let gas = GasPressure { mechanism: mechanism(i), cycle, place, delay, crankcase };
+                let gas = GasPressure { driven: driven(i), cycle, place, delay, crankcase };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_phase(i).half();
@@ -156,10 +140,32 @@ impl Scene {
         for i in cylinders {
             let roll = engine.stations()[i].cylinder.rod_inertia_excess();
             if roll != 0.0 {
-                loads.push(along_bore(i), RodInertia(mechanism(i)), 0.0, roll);
+                loads.push(along_bore(i), RodInertia(driven(i)), 0.0, roll);
             }
         }
         loads
+    }
+
+    /// Those of cranks and balance shafts.
+    fn push_unbalances(&mut self, engine: &Engine) {
+        for (origin, Unbalance { amount, angle, z, pin, crank }) in engine.crank_unbalances() {
+            let mut place = Place::on_main(origin, angle, z).on(engine.cranks()[crank]);
+            if let Some(i) = pin {
+                // A crankpin points along its bore at top dead centre.
+                let bore = engine.stations()[i].bank;
+                let is_forward = engine.cranks()[engine.crank_of(i)].ratio.is_forward();
+                let ahead = if is_forward { bore + angle } else { bore - angle };
+                place = Place::on_main(origin, ahead, z).of_cylinder(engine, i);
+            }
+            self.push_unbalance(place, amount);
+        }
+        for (k, shaft) in engine.shafts().iter().enumerate() {
+            for unbalance in &shaft.unbalances {
+                let place = Place::on_main(Origin::Shaft(k), unbalance.angle, unbalance.z)
+                    .on(Crank { axis: shaft.axis, ratio: shaft.ratio });
+                self.push_unbalance(place, unbalance.amount);
+            }
+        }
     }
 
     pub(super) fn push(&mut self, place: Place, source: impl Source, weight: f64, roll: f64) {

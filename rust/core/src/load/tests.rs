@@ -209,9 +209,9 @@ fn pressure_under_a_piston_is_a_load_of_the_other_sign() {
     let is_gas = |load: &&Load| loads.source(load).name() == GAS_NAME;
     let above: Vec<Load> = loads.list.iter().filter(is_gas).copied().collect();
     for load in &above {
-        let mechanism = loads.source(load).mechanism().unwrap().clone();
+        let driven = loads.source(load).mechanism().unwrap().clone();
         let gas = GasPressure {
-            mechanism,
+            driven,
             cycle: Arc::clone(&cycle),
             place: 0,
             delay: Angle::ZERO,

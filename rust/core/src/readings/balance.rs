@@ -178,6 +178,13 @@ impl Balance {
         })
     }
 
+    /// Wrench of an order, if it is among [`Self::orders`].
+    #[must_use]
+    pub fn order(&self, order: Order) -> Option<&Wrench> {
+        let place = self.orders.iter().position(|&own| own == order)?;
+        Some(&self.wrenches[place])
+    }
+
     /// The same balance about a point this far away along x, y and z, m.
     #[must_use]
     pub fn moved(&self, arm: [f64; 3]) -> Self {
@@ -407,13 +414,14 @@ pub fn angular_speed(rpm: f64) -> Result<f64> {
 /// #         { tdc_deg = 180, bank_deg = 90, z = 0.2 }, { tdc_deg = 0, bank_deg = 90, z = 0.3 },
 /// #     ]",
 /// # )?;
-/// use crankpin_core::balance::{Orders, Request, Vector, balance};
-/// use crankpin_core::Cancel;
+/// use crankpin_core::balance::{Orders, Request, balance};
+/// use crankpin_core::{Cancel, Order};
 ///
 /// let request = Request { rpm: 6000.0, reference_z: None, torque: true };
 /// let found = balance(&four, &request, &Orders::Auto { rtol: 1e-9 }, &Cancel::new())?;
-/// let second = found.planar(Vector::Force, 0); // the first order that remains
-/// assert_eq!((found.orders[0].as_whole(), second.peak().round()), (Some(2), 13595.0)); // N
+/// let force = |order| found.order(order).map(|wrench| wrench.force.peak().round());
+/// assert_eq!(force(Order::whole(2)?), Some(13595.0)); // N
+/// assert_eq!(force(Order::FIRST), None); // it cancels
 /// assert!(found.error_bound.force < 1e-4);
 /// # Ok::<(), crankpin_core::Error>(())
 /// ```

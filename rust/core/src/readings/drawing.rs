@@ -303,8 +303,7 @@ pub fn block(engine: &Engine) -> Option<DrawnBlock> {
     let mass =
         BLOCK_MASS_RATIO * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();
     let height = cylinders().map(|c| 2.0 * c.crank_radius() + drawn_rod(&c)).fold(0.0, f64::max);
-    let [first, last] = engine.ends();
-    let length = last - first + height;
+    let length = engine.length() + height;
     let inertia = mass * (length * length + height * height) / 12.0;
     (mass > 0.0).then_some(DrawnBlock { mass, inertia })
 }

@@ -299,8 +299,8 @@ pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
     for (origin, part) in &parts {
         let Some(i) = origin.cylinder() else { continue };
         let (station, crank) = (&engine.stations()[i], &engine.cranks()[engine.crank_of(i)]);
-        let speed = speeds.iter().position(|&speed| crank.ratio.order() == Ok(speed));
-        let force = speed.map_or(0.0, |k| part.planar(Vector::Force, k).peak());
+        let own = part.order(crank.ratio.order()?);
+        let force = own.map_or(0.0, |wrench| wrench.force.peak());
         let [x, y] = crank.axis;
         found.force += force;
         found.moment += force * (station.z.abs() + reference);

@@ -72,14 +72,14 @@ impl LoadSum {
 /// Adds the moment of inertia of loads whose velocity and acceleration per unit of crank speed a function
 /// fills in, and its slope: with I the kinetic energy is ½I·ω², and inertia torque −½I′·ω².
 pub(crate) fn add_inertia(
-    mechanism: &DrivenMechanism,
+    driven: &DrivenMechanism,
     sum: &LoadSum,
     angles: &CrankAngles,
     [inertia, slope]: [&mut [f64]; 2],
     motions: impl Fn(&Cranks, [&mut [f64]; 2]),
 ) {
-    let units = Units::at_speed(angles, 0..angles.len(), mechanism.ratio);
-    let [_, speed] = mechanism.senses();
+    let units = Units::at_speed(angles, 0..angles.len(), driven.ratio);
+    let [_, speed] = driven.senses();
     let [mut velocities, mut accelerations] = [[0.0; BLOCK]; 2];
     motions(&units.cranks(sum.turned), [&mut velocities, &mut accelerations]);
     for i in 0..angles.len() {
@@ -161,16 +161,16 @@ impl<'a> AngleBlock<'a> {
     /// Of phases half a turn apart both are evaluated with the first.
     pub(crate) fn with_motion(
         &self,
-        mechanism: &DrivenMechanism,
+        driven: &DrivenMechanism,
         sum: &LoadSum,
         wants_velocity: bool,
         work: impl FnOnce(&[AngleColumn; 2]),
     ) {
         let mut scratch = self.scratch.borrow_mut();
         let mut opposites = self.opposites.borrow_mut();
-        let shares = sum.has_opposite && mechanism.mechanism.has_cheap_opposites();
+        let shares = sum.has_opposite && driven.mechanism.has_cheap_opposites();
         let is_such = |own: &&mut OppositeMotion| {
-            own.of.as_ref().is_some_and(|(of, turned)| *turned == sum.turned && of == mechanism)
+            own.of.as_ref().is_some_and(|(of, turned)| *turned == sum.turned && of == driven)
         };
         if shares && let Some(known) = opposites.iter_mut().find(is_such) {
             known.of = None;
@@ -186,11 +186,11 @@ impl<'a> AngleBlock<'a> {
         motion.velocity = (wants_velocity || shares).then_some(&mut velocity[..]);
         if shares {
             let OppositeMotion { of, columns } = &mut opposites[place];
-            *of = Some((mechanism.clone(), -sum.turned));
+            *of = Some((driven.clone(), -sum.turned));
             motion.opposite = Some(columns.each_mut().map(|column| &mut column[..]));
         }
         let ratio = sum.ratio;
-        self.with_cranks(ratio, sum.turned, |cranks| mechanism.mechanism.motions(cranks, motion));
+        self.with_cranks(ratio, sum.turned, |cranks| driven.mechanism.motions(cranks, motion));
         work(&scratch);
     }
 

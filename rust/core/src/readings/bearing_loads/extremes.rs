@@ -175,8 +175,20 @@ fn turning_points(values: &Values) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Squared magnitudes on crankpin and wrist pin, side thrust, force along the rod, gas force.
-fn of_rod(rod: &DrivenRod, theta: f64, beside: f64) -> [f64; 5] {
+/// Loads of a rod: places in [`RodLoads`].
+#[derive(Clone, Copy)]
+enum RodLoad {
+    Crankpin,
+    WristPin,
+    SideThrust,
+    Compression,
+    Gas,
+}
+
+/// Values of each [`RodLoad`]: squared magnitudes of vectors.
+type RodLoads = [f64; 5];
+
+fn of_rod(rod: &DrivenRod, theta: f64, beside: f64) -> RodLoads {
     let forces = rod.forces_beside(theta, beside);
     let square = |[x, y]: [f64; 2]| x * x + y * y;
     let squares = [forces.crankpin, forces.wrist_pin].map(square);
@@ -210,7 +222,7 @@ impl BearingLoadsModel {
             let [pin, wrist, ..] = sampled.map(|range| range[1].sqrt());
             let rounding = LOAD_ROUNDING * rod.terms(pin);
             let factors = [2.0 * pin, 2.0 * wrist, 1.0, 1.0, 1.0];
-            let tolerances: [f64; 5] = array::from_fn(|n| {
+            let tolerances: RodLoads = array::from_fn(|n| {
                 (LOAD_RESOLVED * largest(sampled[n])).max(rounding * factors[n])
             });
             let mut found = curves.extremes(sampled, &tolerances)?;
@@ -227,15 +239,15 @@ impl BearingLoadsModel {
         };
         let mains = of_pins((0..self.mains.len()).map(|main| self.carried(main)).collect())?;
         let whole = of_pins(self.pins.iter().map(|pin| self.on_pin(pin)).collect())?;
-        let of_rods = |n: usize| rows(rods.iter().map(|(ranges, _)| ranges[n]));
+        let of_rods = |of: RodLoad| rows(rods.iter().map(|(ranges, _)| ranges[of as usize]));
         Ok(Extremes {
-            crankpin: of_rods(0)?,
-            wrist_pin: of_rods(1)?,
+            crankpin: of_rods(RodLoad::Crankpin)?,
+            wrist_pin: of_rods(RodLoad::WristPin)?,
             main: rows(mains.into_iter())?,
             whole_crankpin: rows(whole.into_iter())?,
-            side_thrust: of_rods(2)?,
-            rod: of_rods(3)?,
-            gas: of_rods(4)?,
+            side_thrust: of_rods(RodLoad::SideThrust)?,
+            rod: of_rods(RodLoad::Compression)?,
+            gas: of_rods(RodLoad::Gas)?,
         })
     }
 
@@ -282,9 +294,10 @@ impl BearingLoadsModel {
             let sampled = LoadCurves { edges: &edges, of, cancel }.sampled()?;
             // Less than rounding is none.
             let rounding = LOAD_ROUNDING * rod.terms(sampled[0][1].sqrt());
-            let of = |theta, beside| [of_rod(rod, theta, beside)[3]];
+            let compression = RodLoad::Compression as usize;
+            let of = |theta, beside| [of_rod(rod, theta, beside)[compression]];
             let curves = LoadCurves { edges: &edges, of, cancel };
-            let tolerance = (LOAD_RESOLVED * largest(sampled[3])).max(rounding);
+            let tolerance = (LOAD_RESOLVED * largest(sampled[compression])).max(rounding);
             let starts = (curves.of)(0.0, f64::midpoint(edges[0], edges[1]))[0] < -rounding;
             let (mut last, mut changes) = (starts, Vec::new());
             curves.visit(|panel, is_narrow| {

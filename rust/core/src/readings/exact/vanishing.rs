@@ -180,8 +180,19 @@ impl Vanishing {
         Some(self.verdicts[place][quantity])
     }
 
-    fn has_undecided(&self, quantity: ProofQuantity) -> bool {
-        self.verdicts.iter().any(|verdicts| verdicts[quantity] == Verdict::Undecided)
+    /// Why sums are undecided, if some are.
+    fn add_obstacles(&mut self, proof: &Proof, gas: &GasProof, numbered: &NumberedLoads) {
+        let is_open = |verdict: &Verdict| *verdict == Verdict::Undecided;
+        if self.verdicts.iter().flatten().any(is_open) {
+            self.obstacles = proof.obstacles();
+        }
+        if self.verdicts.iter().any(|verdicts| is_open(&verdicts[ProofQuantity::GasTorque])) {
+            self.obstacles.extend(gas.obstacle().map(String::from));
+        }
+        if numbered.0.iter().flatten().any(|acts| *acts) {
+            let text = "loads that were given by numbers: they cancel with nothing for certain";
+            self.obstacles.push(text.to_owned());
+        }
     }
 }
 
@@ -371,43 +382,8 @@ impl Proof {
                 found.push(format!("{name} is no simple part of a turn in cylinders {numbers}"));
             }
         }
-        let turning = || self.loads.list.iter().filter(|load| load.is_turning());
-        let directions = self.loads.list.iter().zip(&self.roots.directions);
-        if directions.into_iter().any(|(load, of)| load.is_turning() && of.symbol > 0) {
-            found.push("angles of unbalances that are no simple part of a turn".to_owned());
-        }
-        let speeds = || self.motions.iter().map(|motion| motion.speed);
-        if speeds().any(|speed| Some(speed) != speeds().next()) {
-            found.push("cranks of different speeds".to_owned());
-        } else if self.motions.len() > 1 {
-            found.push("slider-cranks of different proportions".to_owned());
-        }
-        let inertias = || self.gears.iter().map(|(gear, _)| gear.rod_inertia_excess());
-        if inertias().any(|inertia| Some(inertia) != inertias().next()) {
-            found.push("rods of different moments of inertia".to_owned());
-        }
-        if self.planar_units > 1 {
-            found.push("masses times radius that are no rational multiples of each other".into());
-        }
-        if turning().any(|load| !load.place.ratio.is_crank_speed()) {
-            found.push(
-                "unbalances of other orders than 1, no rational multiples of pistons'".into(),
-            );
-        }
-        let beside = |load: &Load| load.place.axis != Complex64::default();
-        if turning().any(beside) {
-            found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
-        }
-        if self.loads.list.iter().filter(is_piston).any(beside) {
-            found.push("roll torques of forces on cranks beside the main one".to_owned());
-        }
-        let mut units: Vec<usize> =
-            self.levers.of.iter().flatten().map(|&(unit, _)| unit).collect();
-        units.sort_unstable();
-        units.dedup();
-        if units.len() > 1 {
-            found.push("places that are no rational multiples of each other".to_owned());
-        }
+        let unrelated = self.unrelated().into_iter().filter(|(is_so, _)| *is_so);
+        found.extend(unrelated.map(|(_, text)| text.to_owned()));
         let has_offset = |motion: &ExactMotion| motion.mechanism.exact_force(1).rest.exists();
         if found.is_empty() && self.motions.iter().any(has_offset) {
             found.push(
@@ -418,6 +394,49 @@ impl Proof {
             found.push("rod inertia: its torque nearly cancels that of the masses".to_owned());
         }
         found
+    }
+
+    /// What may have no rational relation, and whether it has none.
+    fn unrelated(&self) -> [(bool, &'static str); 9] {
+        let turning = || self.loads.list.iter().filter(|load| load.is_turning());
+        let directions = self.loads.list.iter().zip(&self.roots.directions);
+        let mut turned = directions.filter(|(load, _)| load.is_turning());
+        let mut speeds = self.motions.iter().map(|motion| motion.speed);
+        let has_speeds = speeds.next().is_some_and(|first| speeds.any(|speed| speed != first));
+        let mut inertias = self.gears.iter().map(|(gear, _)| gear.rod_inertia_excess());
+        let first = inertias.next();
+        let is_piston = |load: &&Load| load.parts.force == Some(ForcePart::Along);
+        let beside = |load: &Load| load.place.axis != Complex64::default();
+        let units = || self.levers.of.iter().flatten().map(|&(unit, _)| unit);
+        [
+            (
+                turned.any(|(_, direction)| direction.symbol > 0),
+                "angles of unbalances that are no simple part of a turn",
+            ),
+            (has_speeds, "cranks of different speeds"),
+            (!has_speeds && self.motions.len() > 1, "slider-cranks of different proportions"),
+            (
+                inertias.any(|inertia| Some(inertia) != first),
+                "rods of different moments of inertia",
+            ),
+            (
+                self.planar_units > 1,
+                "masses times radius that are no rational multiples of each other",
+            ),
+            (
+                turning().any(|load| !load.place.ratio.is_crank_speed()),
+                "unbalances of other orders than 1, no rational multiples of pistons'",
+            ),
+            (turning().any(beside), "roll torques of shafts, no rational multiples of pistons'"),
+            (
+                self.loads.list.iter().filter(is_piston).any(beside),
+                "roll torques of forces on cranks beside the main one",
+            ),
+            (
+                units().any(|unit| Some(unit) != units().next()),
+                "places that are no rational multiples of each other",
+            ),
+        ]
     }
 }
 
@@ -474,25 +493,18 @@ pub(crate) fn vanishing_of(
 ) -> Result<Vanishing> {
     check_list(orders)?;
     let proof = Proof::of(engine, reference_z, cancel)?;
+    let has_halves = proof.has_half_orders() || firing.is_some() || engine.cycles_in_use() > 0;
     let half = orders.iter().find(|order| order.as_whole().is_none());
-    if let (Some(half), None) = (half, firing)
-        && engine.cycles_in_use() == 0
-        && engine.loads().is_empty()
-        && !proof.has_half_orders()
-    {
+    if let Some(half) = half.filter(|_| !has_halves && engine.loads().is_empty()) {
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
     let gas = GasProof::new(engine, firing, cancel)?;
-    let torques = [ProofQuantity::Torque, ProofQuantity::GasTorque];
-    let torque = torques.iter().any(|torque| quantities.contains(torque));
+    let is_torque = |own| matches!(own, &ProofQuantity::Torque | &ProofQuantity::GasTorque);
+    let torque = quantities.iter().any(is_torque);
     let (within_rounding, gas_remains) = evaluated(engine, orders, reference_z, torque, cancel)?;
     let numbered = NumberedLoads::new(engine, reference_z, orders, cancel)?;
-    let mut found = Vanishing {
-        orders: orders.to_vec(),
-        verdicts: Vec::new(),
-        within_rounding,
-        obstacles: Vec::new(),
-    };
+    let (orders_listed, verdicts, obstacles) = (orders.to_vec(), Vec::new(), Vec::new());
+    let mut found = Vanishing { orders: orders_listed, verdicts, within_rounding, obstacles };
     let mut errors: Vec<String> = Vec::new();
     let known = found.within_rounding.iter_mut().zip(gas_remains).zip(&numbered.0);
     for (&order, ((within, gas_remains), numbered)) in orders.iter().zip(known) {
@@ -520,16 +532,7 @@ pub(crate) fn vanishing_of(
         }
         found.verdicts.push(verdicts);
     }
-    if QUANTITIES.iter().any(|&quantity| found.has_undecided(quantity)) {
-        found.obstacles = proof.obstacles();
-    }
-    if found.has_undecided(ProofQuantity::GasTorque) {
-        found.obstacles.extend(gas.obstacle().map(String::from));
-    }
-    if numbered.0.iter().flatten().any(|acts| *acts) {
-        let obstacle = "loads that were given by numbers: they cancel with nothing for certain";
-        found.obstacles.push(obstacle.into());
-    }
+    found.add_obstacles(&proof, &gas, &numbered);
     found.obstacles.extend(errors);
     Ok(found)
 }
