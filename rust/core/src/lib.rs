@@ -14,7 +14,7 @@
 //! - `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, bearing loads, sweeps, tolerances,
 //!   exact answers, explanations in words;
-//! - [`balancing`]: counterweights and balance shafts fitted to an engine;
+//! - [`balancing`]: counterweights and balance shafts fitted to an engine, and forces of actuators;
 //! - [`design`]: objectives of angles that vary, and their derivatives;
 //! - [`search`]: crank arrangements;
 //! - `checking`: sources run through every reading.

@@ -64,8 +64,8 @@ mod _core {
         flywheel::{CycleGrid, mean_inertias},
         matching::MeasuredParts,
         mounts::{
-            AdaptiveLaw, InertialActuator, MountObjectives, Powertrain, Response, actuator_phasors,
-            check_mount, check_support, mount_stiffness, peaks_of_vectors, rigid_body,
+            AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, check_mount,
+            check_support, mount_stiffness, peaks_of_vectors, rigid_body,
         },
         pressure::{Cycle, places_on_axis, repeats_first, volume_ratios},
         search::{BankAngles, Search, arrangement},

@@ -364,6 +364,37 @@ impl Powertrain {
         self.0.torque_in_one_mode(frequency).or_raise()
     }
 
+    /// Velocity at the place of an actuator, of 1 N of its motor, at frequencies, Hz.
+    fn mobility<'py>(
+        &self,
+        py: Python<'py>,
+        actuator: Inertial,
+        frequency: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let (actuator, frequency) =
+            (mounts::InertialActuator::from(actuator), frequency.as_slice()?);
+        let found = interrupt::run(py, |cancel| actuator.mobility(&self.0, frequency, cancel))?;
+        frozen(py, found.into())
+    }
+
+    /// The least gain at which roots reach the imaginary axis, and their frequency, Hz, of mobilities on a grid.
+    fn feedback_margin(
+        &self,
+        py: Python<'_>,
+        actuator: Inertial,
+        frequency: PyReadonlyArray1<'_, f64>,
+        mobility: PyReadonlyArray1<'_, Complex64>,
+    ) -> PyResult<(f64, Option<f64>)> {
+        let actuator = mounts::InertialActuator::from(actuator);
+        let grid = (frequency.as_slice()?, mobility.as_slice()?);
+        interrupt::run(py, |cancel| actuator.margin(&self.0, grid, cancel))
+    }
+
+    /// Frequency of the lowest mode that nothing damps and the motor drives, Hz, with stiffness at a frequency.
+    fn undamped(&self, actuator: Inertial, frequency: f64) -> PyResult<Option<f64>> {
+        mounts::InertialActuator::from(actuator).undamped(&self.0, frequency).or_raise()
+    }
+
     fn modes<'py>(&self, py: Python<'py>, frequency: Option<f64>) -> PyResult<Modes<'py>> {
         let found = mounts::modes(&self.0, frequency).or_raise()?;
         let square = |matrix: &nalgebra::DMatrix<f64>| {
@@ -639,56 +670,20 @@ impl Response {
     }
 }
 
-/// An actuator whose motor pushes against a mass on a spring.
-#[pyclass(frozen, module = "crankpin._core")]
-pub struct InertialActuator(mounts::InertialActuator);
+/// An actuator whose motor pushes against a mass on a spring, as Python's record has it.
+#[derive(FromPyObject)]
+pub struct Inertial {
+    at: [f64; 3],
+    direction: [f64; 3],
+    mass: f64,
+    resonance: f64,
+    damping_ratio: f64,
+}
 
-#[guarded]
-#[pymethods]
-impl InertialActuator {
-    #[new]
-    fn new(
-        at: [f64; 3],
-        direction: [f64; 3],
-        mass: f64,
-        resonance: f64,
-        damping_ratio: f64,
-    ) -> Self {
-        Self(mounts::InertialActuator { at, direction, mass, resonance, damping_ratio })
-    }
-
-    /// Velocity of the powertrain at its place, of 1 N of its motor, at frequencies, Hz.
-    fn mobility<'py>(
-        &self,
-        py: Python<'py>,
-        powertrain: &Bound<'_, Powertrain>,
-        frequency: PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        let (powertrain, frequency) = (&powertrain.get().0, frequency.as_slice()?);
-        let found = interrupt::run(py, |cancel| self.0.mobility(powertrain, frequency, cancel))?;
-        frozen(py, found.into())
-    }
-
-    /// The least gain at which roots reach the imaginary axis, and their frequency, Hz, of mobilities on a grid.
-    fn margin(
-        &self,
-        py: Python<'_>,
-        powertrain: &Bound<'_, Powertrain>,
-        frequency: PyReadonlyArray1<'_, f64>,
-        mobility: PyReadonlyArray1<'_, Complex64>,
-    ) -> PyResult<(f64, Option<f64>)> {
-        let grid = (frequency.as_slice()?, mobility.as_slice()?);
-        let powertrain = &powertrain.get().0;
-        interrupt::run(py, |cancel| self.0.margin(powertrain, grid, cancel))
-    }
-
-    /// Frequency of the lowest mode that nothing damps and the motor drives, Hz, with stiffness at a frequency.
-    fn undamped(
-        &self,
-        powertrain: &Bound<'_, Powertrain>,
-        frequency: f64,
-    ) -> PyResult<Option<f64>> {
-        self.0.undamped(&powertrain.get().0, frequency).or_raise()
+impl From<Inertial> for mounts::InertialActuator {
+    fn from(actuator: Inertial) -> Self {
+        let Inertial { at, direction, mass, resonance, damping_ratio } = actuator;
+        Self { at, direction, mass, resonance, damping_ratio }
     }
 }
 

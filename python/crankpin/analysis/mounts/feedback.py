@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _core
 from crankpin._support import inputs, units
 from crankpin._support.frames import Tabled
 from crankpin._support.record import computed, read_only
@@ -58,8 +57,8 @@ class VelocityFeedback(Tabled):
         resonance = float(self.actuator.resonance or 0.0)
         at = float(np.clip(resonance, low, high))
         modes = self.powertrain.modes(at if self.powertrain._varies else None)
-        actuator = self._actuator
-        undamped = actuator.undamped(self.powertrain._core, at)
+        core = self.powertrain._core
+        undamped = core.undamped(self.actuator, at)
         if undamped is not None:
             hint = (
                 "a limit of gain is that of a powertrain and actuator that are stable without: "
@@ -75,7 +74,7 @@ class VelocityFeedback(Tabled):
         if not grid.size:
             raise self._beyond(low, high)
         mobility = self._mobility(grid)
-        largest, onset = actuator.margin(self.powertrain._core, grid, mobility)
+        largest, onset = core.feedback_margin(self.actuator, grid, mobility)
         if is_cut and onset is None:
             raise self._beyond(low, high)
         known = [f for f in own[:-1] if low <= f <= high]
@@ -104,15 +103,9 @@ class VelocityFeedback(Tabled):
         )
         return inputs.faulty("tables of stiffness", f"have {low:g} to {high:g} Hz in common", hint)
 
-    @property
-    def _actuator(self) -> _core.InertialActuator:
-        one = self.actuator
-        figures = (float(one.mass or 0.0), float(one.resonance or 0.0), one.damping_ratio)
-        return _core.InertialActuator(one.at, one.direction, *figures)
-
     def _mobility(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the velocity of 1 N of the motor, at frequencies."""
-        return self._actuator.mobility(self.powertrain._core, frequency)
+        return self.powertrain._core.mobility(self.actuator, frequency)
 
     @property
     def applied_gain(self) -> float:
