@@ -32,9 +32,7 @@ export function csvOf(rows) {
 export function turningPage(figures) {
   const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
   const text = (id) => document.getElementById(id).textContent;
-  // The core's terms are of the engine's own rod ratio: the page offers no other.
-  const terms = { ...figures.terms, rod_ratios: [0, 0, 1] };
-  const json = JSON.stringify({ ...figures, terms }).replaceAll("<", "\\u003c");
+  const json = JSON.stringify(figures).replaceAll("<", "\\u003c");
   const filled = {
     title: escape(figures.name || "Engine"), style: text("turning"), body: "",
     script: `${text("drawing")}\npage(Full, ${json});`,

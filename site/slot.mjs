@@ -16,6 +16,10 @@ const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 /** Cylinders of an engine that is drawn, at most: the library takes more. */
 const MOST_DRAWN = 64;
 
+/** Controls of a page that is saved, which has no form: those of the library's. */
+const savedControls = ({ bank_angle_deg: angle }) =>
+  ["crank_angle", "rpm", "rod_ratio", ...(angle === null ? [] : ["bank_angle"]), ...CONTROLS.slice(2)];
+
 export class Slot {
   core;
   design;
@@ -141,12 +145,16 @@ export class Slot {
     this.follow();
   }
 
+  /** What a page draws the engine from: of its own rod ratios, or of all that a page reaches. */
+  figures(more = {}) {
+    const { core, engine, design: { rpm }, inertia, units } = this;
+    const figures = core.call("figures", { engine: engine.json, rpm, inertia, shown: UNITS.said[units], ...more });
+    return { ...figures, controls: more.rod_ratios ? savedControls(figures) : CONTROLS, units: UNITS.drawn[units] };
+  }
+
   show() {
-    const { core, design, engine, bench } = this;
-    const figures = {
-      ...core.call("figures", { engine: engine.json, rpm: design.rpm, inertia: this.inertia, shown: UNITS.said[this.units] }),
-      controls: CONTROLS, units: UNITS.drawn[this.units],
-    };
+    const { bench } = this;
+    const figures = this.figures();
     if (bench?.follows(figures)) return;
     this.bench = new Bench(figures, this.stage, bench?.kept);
     bench?.destroy();

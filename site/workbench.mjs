@@ -285,8 +285,7 @@ export class Workbench {
   savePage() {
     const engine = this.typed;
     if (!engine) return;
-    const { bench: { figures, state: { rpm } } } = this.current;
-    saveFile(fileName(engine.summary.name, "html"), turningPage({ ...figures, rpm }), "text/html");
+    saveFile(fileName(engine.summary.name, "html"), turningPage(this.current.figures({ rod_ratios: true })), "text/html");
   }
 
   async writeAddress() {

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 __all__ = [
     "ATMOSPHERE",
+    "EQUAL_FREQUENCIES",
     "EXHAUST_OPENS_DEG",
     "FEWEST_POINTS",
-    "HIGHEST_LISTED",
     "HIGHEST_ORDER",
     "LARGEST",
     "LARGEST_RESULT",
@@ -64,20 +64,18 @@ __all__ = [
     "cylinder_warnings",
     "dead_text",
     "drawn",
-    "drawn_loads",
     "drawn_rod",
+    "drawn_turning",
     "engine_warnings",
     "estimated_rod_inertia",
     "exact_angle",
     "explain",
     "far_peak",
     "figure_warnings",
-    "fired_kinds",
     "fit_shafts",
     "fit_weights",
     "gas_text",
     "gas_warnings",
-    "group_terms",
     "hardware_warnings",
     "inline_throws",
     "listed_orders",
@@ -90,7 +88,6 @@ __all__ = [
     "near_miss",
     "offset_table",
     "orders_of_samples",
-    "orders_that_count",
     "pair_heights",
     "peak_warnings",
     "peaks_of_sums",
@@ -108,12 +105,11 @@ __all__ = [
     "repeats_first",
     "rigid_body",
     "rod_parts",
+    "rod_ratios",
     "roll_torque",
     "shared",
-    "sizes",
     "star",
     "stiffness_warnings",
-    "swept",
     "tensor_warnings",
     "terms",
     "tilts_deg",
@@ -135,9 +131,9 @@ __all__ = [
 
 __version__: str
 ATMOSPHERE: float
+EQUAL_FREQUENCIES: float
 EXHAUST_OPENS_DEG: list[float]
 FEWEST_POINTS: int
-HIGHEST_LISTED: int
 HIGHEST_ORDER: int
 MOST_CYLINDERS: int
 LARGEST_RESULT: int
@@ -801,17 +797,11 @@ def bounds_about(
 ) -> tuple[float, float, float]: ...
 def tilts_deg(forward: _Complex, backward: _Complex) -> _Real: ...
 def drawn(engine: Engine) -> str: ...
-def load_rows(engine: Engine, rpm: float, torque: bool) -> str: ...
-def drawn_loads(engine: Engine) -> list[str]: ...
 def drawn_rod(parts: _Parts) -> float: ...
-def fired_kinds(engine: Engine) -> list[int]: ...
-def group_terms(
-    engine: Engine, cylinders: bool, numbers: Sequence[float], spectrum: _Pairs | None
-) -> tuple[_Complex, _Complex]: ...
-def listed_orders(engine: Engine) -> list[int | float]: ...
-def orders_that_count(engine: Engine) -> list[int | float]: ...
-def sizes(engine: Engine) -> list[float]: ...
-def swept(engine: Engine, cylinder: int, orders: Sequence[int]) -> list[complex]: ...
+def drawn_turning(engine: Engine, spectrum: _Pairs | None, rpm: float) -> str: ...
+def listed_orders(engine: Engine, spectrum: _Pairs | None) -> list[int | float]: ...
+def load_rows(engine: Engine, rpm: float, torque: bool) -> str: ...
+def rod_ratios(engine: Engine) -> tuple[float, float, float | None]: ...
 def terms(
     engine: Engine,
     rpm: float,

@@ -227,6 +227,19 @@ def test_run_up_marks_the_modes_that_an_order_crosses(open_engine: Open) -> None
     assert page.locator(".resonance").count() == 0
 
 
+def test_run_up_has_curves_beside_resonances_without_damping(open_engine: Open) -> None:
+    """Where an order meets a mode exactly, rounding alone bounds the answer: it sets no scale."""
+    free = [mount.replace(loss_factor=0.0) for mount in MOUNTS]
+    page = open_engine(CAR.replace(mounts=free), rpm=800)
+    curves = page.locator(".run-up .curve").all()
+    assert [bool(curve.get_attribute("d")) for curve in curves] == [True] * 4
+    ticks = [
+        float(tick.get_attribute("data-value") or 0) for tick in page.locator(".run-up .tick").all()
+    ]
+    values = np.array([value for value in page.evaluate("crankpin.curves.values") if value])
+    assert max(ticks) < 1e6 * np.median(np.linalg.norm(values, axis=1))
+
+
 LABELS = {
     "crank_angle": "turn the crank",
     "rpm": "engine speed",

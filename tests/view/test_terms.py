@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin import _core
 from crankpin.view.figures import Settings, figures
 from crankpin.view.gallery import speed_of
-from crankpin.view.terms import RodRatios
 from numpy.polynomial import chebyshev
 from support import in_turn
 from support.several_cranks import fired_engine, random_engine, size
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 WITHIN = 1e-10
+OF_HEIGHTS = 1e-9
+"""Pistons' motions are cut at 1e-11 of the crank radius, in a few dozen sums."""
 ANGLES = [0.0, 97.25, 181.5, 333.3333333]
 NUMBERS = """([figures, settings, angles]) => {
     const { constructor: Numbers } = crankpin.numbers;
@@ -64,8 +67,8 @@ def numbers(
 
 def all_settings(engine: cp.Engine, rpm: float) -> list[Settings]:
     """Return the engine's own settings and others: both ends of the rod ratios, banks turned."""
-    own, ratios = Settings.of(engine, rpm), RodRatios.of(engine)
-    rods = [ratios.least, 0.237, ratios.most]
+    own, (least, most, _) = Settings.of(engine, rpm), _core.rod_ratios(engine._core)
+    rods = [least, 0.237, most]
     bank = own.bank_angle_deg
     settings = [own, *(Settings(0.3 * rpm, bank, rod) for rod in rods)]
     if bank is not None:
@@ -315,16 +318,64 @@ def test_an_engine_is_drawn_from_its_own_places(engine: cp.Engine) -> None:
     theta = np.linspace(0.0, 180.0 * engine.strokes, 1777)[:-1]
     starts = engine.firing_deg
     for k, (each, cycle) in enumerate(zip(cylinders, engine.cycles, strict=True)):
-        assert (each["cycle"] is None) == (cycle is None) == ("swept" not in each)
+        assert (each["cycle"] is None) == (cycle is None) == ("roll" not in each)
         if cycle is not None:
             assert each["pressure_deg"] == starts[k]
             shown, expected = pressure_of(cycles[each["cycle"]], theta), cycle.pressure_at(theta)
             np.testing.assert_allclose(shown, expected, rtol=0, atol=1e-12 * expected.max())
-            # Those that differ in what sweeps a volume have different ones.
-            first = next(c for c in cylinders if c.get("swept") == each["swept"])
+            # Those that move in different ways have different motions.
+            first = next(c for c in cylinders if c["motion"] == each["motion"])
             one, other = engine.cylinders[k], engine.cylinders[first["number"] - 1]
-            swept = ("crank_radius", "rod_length", "pin_offset", "bore")
+            swept = ("crank_radius", "rod_length", "pin_offset")
             assert all(getattr(one, name) == getattr(other, name) for name in swept)
+            volume = math.pi * (one.bore or 0.0) ** 2 / 4.0 * one.crank_radius
+            assert each["swept"] == pytest.approx(volume, rel=1e-15)
+
+
+def row_sums(
+    rows: list[Any], drawn: dict[str, Any], ratio: float | None
+) -> dict[float, NDArray[np.complex128]]:
+    """Return what a page sums of rows of one group, by order."""
+    sums = dict[float, Any]()
+    for order, power, polynomial, [(_, *values)], *own in rows:
+        if ratio is None:
+            (factor,) = own
+        else:
+            least, most, turning = drawn["rod_ratios"]
+            low, high, q = np.tan(0.5 * np.arcsin(np.array([least, most, ratio]) / turning))
+            x = (2.0 * q - low - high) / (high - low)
+            factor = q**power * chebyshev.chebval(x, polynomial or [0.0])
+        sums[order] = sums.get(order, 0.0) + factor * np.array(values, float).view(complex)
+    return sums
+
+
+@in_turn("engine", [*map(random_engine, range(20)), everything(), radial(), *map(vee, range(4))])
+def test_pistons_stand_where_the_library_has_them(engine: cp.Engine) -> None:
+    """At any rod ratio; highest and lowest where it has them."""
+    drawn = figures(engine, 60.0, spectrum=None)
+    own = drawn["rod_ratio"]
+    least, most, _ = drawn["rod_ratios"]
+    past = np.linspace(0.0, 360.0, 61)
+    for ratio in {own, least, 0.237, most, 0.5 * (least + most)}:
+        of = Settings(60.0, None, ratio).applied(engine).cylinders
+        for each, part in zip(drawn["cylinders"], of, strict=True):
+            motion, r = drawn["motions"][each["motion"]], part.crank_radius
+            # An infinite rod is drawn as a bar.
+            bar = each["rod_length"] if np.isinf(part.rod_length) else 0.0
+            rod = bar or part.rod_length
+            height = sum(
+                (values[0] * np.exp(1j * np.radians(order * past))).real
+                for order, values in row_sums(motion["height"], drawn, ratio).items()
+            )
+            expected = part.position(past) + bar
+            np.testing.assert_allclose(rod + r * height, expected, rtol=OF_HEIGHTS)
+            turning = row_sums(motion["turning"], drawn, ratio)
+            angles, ends = (turning[place].view(float) for place in (0, 1))
+            for angle, end, sign in zip(angles, ends, (1, -1), strict=True):
+                there = float(part.position(angle)) + bar
+                assert rod + r * end == pytest.approx(there, rel=OF_HEIGHTS)
+                beside = part.position(np.array([angle - 0.1, angle + 0.1])) + bar
+                assert (sign * beside < sign * there).all()
 
 
 def test_pages_have_no_mass_to_compute_with() -> None:

@@ -24,6 +24,7 @@ from crankpin.model import presets
 from crankpin.model.builders import FANS
 from crankpin.model.checks import UNITS_ASSUMED
 from crankpin.view.figures import figures
+from numpy.polynomial import chebyshev
 from support.core_in_page import Ask, Calls
 from support.several_cranks import fired_engine, random_engine
 
@@ -284,6 +285,29 @@ def test_intervals_are_kept_as_they_were_typed(ask: Ask) -> None:
         assert cp.Engine.from_toml(found["toml"]) == engine
 
 
+def same_sums(rows: list[Any], of_page: list[Any], page: dict[str, Any], within: float) -> None:
+    """Compare rows of the own rod ratios with those of all, to what polynomials leave out."""
+    least, most, turning = page["rod_ratios"]
+    own = page["rod_ratio"]
+    low, high, q = (
+        math.tan(0.5 * math.asin(ratio / turning)) for ratio in (least, most, own or 0.0)
+    )
+    sums: list[dict[Any, Any]] = [{}, {}]
+    for of, listed in zip(sums, (rows, of_page), strict=True):
+        for order, power, polynomial, groups, *factor in listed:
+            if listed is rows or own is None:
+                (by,) = factor
+            else:
+                at = (2.0 * q - low - high) / (high - low)
+                by = q**power * chebyshev.chebval(at, polynomial)
+            for group, *values in groups:
+                of[order, group] = of.get((order, group), 0.0) + by * np.array(values)
+    size = max((abs(each).max() for each in sums[0].values()), default=0.0)
+    for key in {*sums[0], *sums[1]}:
+        one, other = (of.get(key, 0.0) for of in sums)
+        assert np.max(np.abs(np.subtract(one, other))) <= within * size, key
+
+
 def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
     listed = [*preset_engines(), *(fired_engine(seed) for seed in range(8))]
     fan = cp.PeriodicLoad("fan", on="shaft", force={0.5: 8, 2: 1j}, torque={0: 3, 4: 1}, z=-0.1)
@@ -293,7 +317,9 @@ def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
     listed += [each.with_loads([fan, mill]) for each in listed[-10:]]
     rpm = 600.0
     calls: Calls = [("figures", {"engine": each.to_json(), "rpm": rpm}) for each in listed]
-    others = {"rod_ratio", "terms", "flywheel", "sentences", "loads", "name"}
+    others = {
+        "rod_ratio", "rod_ratios", "motions", "terms", "flywheel", "sentences", "loads", "name",
+    }  # fmt: skip
     for engine, found in zip(listed, results(ask, calls), strict=True):
         expected = json.loads(json.dumps(figures(engine, rpm, spectrum=None)))
         del expected["units"], expected["controls"]  # of the page, not of the engine
@@ -307,22 +333,25 @@ def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
                 assert found[name] == expected[name], name
         terms, theirs = found["terms"], expected["terms"]
         assert terms["orders"] == theirs["orders"]
-        assert len(terms["swept"]) == len(theirs["swept"])
+        for one, other in zip(found["motions"], expected["motions"], strict=True):
+            for name in ("height", "turning"):
+                same_sums(one[name], other[name], expected, 1e-10)  # cut at 1e-11
+        for name in ("planar", "torque"):
+            same_sums(terms[name], theirs[name], expected, 1e-11)  # cut at 1e-13
         same_rows(terms["loads"], theirs["loads"])
         for name, size in theirs["sizes"].items():
             assert math.isclose(terms["sizes"][name], size, rel_tol=1e-14), name
         numbers = list(dict.fromkeys(row[0] for row in terms["planar"]))
-        parts = [
-            _core.group_terms(engine._core, cylinders, numbers, None) for cylinders in (True, False)
-        ]
-        planar = parts[0][0] + parts[1][0]
         ours = np.zeros((len(numbers), 3, 8))
         for order, _, _, groups, factor in terms["planar"]:
             for group, *values in groups:
                 ours[numbers.index(order), group] += factor * np.array(values)
+        balance = engine.with_loads([]).balance(30.0 / np.pi, orders=numbers, torque=False)
+        vectors = (balance.force, balance.moment)
+        planar = np.stack([part for of in vectors for part in (of.forward, of.backward)], axis=1)
         size = abs(planar).max(initial=0.0)
         # Sums of a few terms, each a product of a few figures.
-        assert abs(ours.view(complex) - planar).max(initial=0.0) <= 1e-14 * size
+        assert abs(ours.sum(axis=1).view(complex) - planar).max(initial=0.0) <= 1e-14 * size
 
 
 # --- parts that are fitted ----------------------------------------------------------------------

@@ -16,7 +16,7 @@ from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.request import engine_core
-from crankpin.view.terms import RodRatios, at_rod_ratio, has_halves, listed_orders, load_rows, terms
+from crankpin.model.cylinder import rod_length
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -60,15 +60,17 @@ class Settings:
         return cls(
             rpm=inputs.number("rpm", rpm),
             bank_angle_deg=_bank_angle(engine),
-            rod_ratio=RodRatios.of(engine).common,
+            rod_ratio=_core.rod_ratios(engine_core(engine))[2],
         )
 
     def check(self, engine: Engine) -> None:
         """Raise an InputError if the engine does not allow these settings."""
         inputs.angular_speed(self.rpm)
         self.applied(engine)
-        if self.rod_ratio is not None:
-            RodRatios.of(engine).check(self.rod_ratio)
+        least, most, _ = _core.rod_ratios(engine_core(engine))
+        if self.rod_ratio is not None and not least <= self.rod_ratio <= most:
+            hint = f"a page reaches {least:.6g} to {most:.6g}"
+            raise inputs.rejected("rod_ratio", self.rod_ratio, hint)
 
     def applied(self, engine: Engine) -> Engine:
         """Return the engine at these settings.
@@ -106,12 +108,9 @@ def figures(
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     pairs = inputs.spectrum(spectrum)
     core = engine_core(engine)
-    block, gas = map(json.loads, _core.drawn_loads(core))
     return {
-        **places(engine, rpm),
-        "terms": terms(engine, pairs, float(rpm)),
-        "block": block,
-        "gas": gas,
+        **json.loads(_core.drawn_turning(core, pairs, float(rpm))),
+        "rpm": float(rpm),
         "loads": labels.in_words(labels.SPECTRUM_GIVEN if pairs else core.loads_counted),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
@@ -125,9 +124,7 @@ def figures(
 
 def places(engine: Engine, rpm: float) -> dict[str, Any]:
     """Return what an engine is drawn from, and its settings."""
-    settings = Settings.of(engine, rpm)
-    drawn = json.loads(_core.drawn(engine_core(engine)))
-    return {**drawn, "rpm": settings.rpm, "rod_ratio": settings.rod_ratio}
+    return {**json.loads(_core.drawn(engine_core(engine))), "rpm": inputs.number("rpm", rpm)}
 
 
 def core_numbers(
@@ -138,11 +135,13 @@ def core_numbers(
     In the form in which the page computes its own: forces in N, moments and torques in N·m.
     """
     changed = settings.applied(engine)
-    orders = listed_orders(engine, spectrum)
+    orders = _core.listed_orders(engine_core(engine), inputs.spectrum(spectrum))
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
-    loads = load_rows(changed, settings.rpm, torque=spectrum is None)
-    repeats = 720.0 if has_halves(loads["planar"]) else 360.0
-    of_torque = 720.0 if has_halves(loads["torque"]) else 360.0
+    rows = json.loads(_core.load_rows(engine_core(changed), settings.rpm, spectrum is None))
+    repeats, of_torque = (
+        720.0 if any(order % 1 for order, *_ in rows[name]) else 360.0
+        for name in ("planar", "torque")
+    )
     turns = max(repeats, of_torque, 180.0 * changed.strokes if changed.fired else 0.0)
     waveform = changed.waveform(
         settings.rpm,
@@ -180,6 +179,19 @@ def _of_loads(waveform: Waveform) -> list[float]:
     others = [waveform.read(f"torque.{name}") for name in ("inertia", "gas")]
     rest: list[float] = (waveform.torque - others[0] - others[1]).tolist()
     return rest
+
+
+def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
+    """Return the engine with a rod ratio of all cylinders; None leaves it as it is."""
+    if ratio is None:
+        return engine
+    changed = {
+        cylinder: cylinder
+        if cylinder.rod_ratio == ratio
+        else cylinder.replace(rod_length=rod_length(cylinder.crank_radius, ratio))
+        for cylinder in set(engine.cylinders)
+    }
+    return engine.replace(cylinder=[changed[cylinder] for cylinder in engine.cylinders])
 
 
 def _bank_angle(engine: Engine) -> float | None:

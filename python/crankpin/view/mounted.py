@@ -59,6 +59,7 @@ def figures(
             "cg": list(powertrain.body.cg),
             "box": _box(powertrain),
             "frequency": modes.at_frequency,
+            "equal_frequencies": _core.EQUAL_FREQUENCIES,
             **_mass(powertrain),
             **_engine_loads(powertrain),
             "order": largest_order(powertrain, at),

@@ -64,7 +64,8 @@ pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
 pub use readings::{
     balance, bearing_loads, drawing, exact, explain, figures, flywheel, measured_parts,
-    mount_designs, mount_objectives, mounted, peaks, quantity, sweep, terms, tolerances, waveform,
+    mount_designs, mount_objectives, mounted, page, peaks, quantity, rows, sweep, terms,
+    tolerances, waveform,
 };
 
 /// Complex numbers as ndarray and `NumPy` share them.

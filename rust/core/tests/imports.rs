@@ -59,7 +59,7 @@ const HOMES: [&str; 5] = ["engine", "load", "mechanism", "pressure", "source"];
 /// Files and folders besides that name gas, pistons, rods or [`Origin`]s, and why.
 ///
 /// [`Origin`]: crankpin_core::engine::Origin
-const NAMING: [(&str, &str); 13] = [
+const NAMING: [(&str, &str); 15] = [
     ("checking.rs", "its engines have gas, and its load is an origin"),
     ("firing/", "a word of errors and a module: pistons fire, gas is exchanged"),
     ("lib.rs", "exports"),
@@ -70,6 +70,8 @@ const NAMING: [(&str, &str); 13] = [
     ("readings/explain/", "words, and what is compared with one piston"),
     ("readings/figures.rs", "what a page turns, by part of the engine"),
     ("readings/quantity.rs", "names of parts that are always there"),
+    ("readings/page.rs", "what a page turns: terms, and motions of pistons"),
+    ("readings/rows.rs", "polynomials in the rod ratio"),
     ("readings/sweep/", "an axis is the rod ratio"),
     ("readings/terms.rs", "terms are of each origin"),
     ("readings/tolerances/", "the rod length is a figure that deviates, pressure none"),

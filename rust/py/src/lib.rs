@@ -38,9 +38,7 @@ static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 // Classes are frozen, and what threads share is behind a lock: packaging/README.md has how that was tested.
 #[pymodule(gil_used = false)]
 mod _core {
-    use crankpin_core::{
-        crank_angles, drawing, engine::file, figures, layout::Strokes, limits, pressure,
-    };
+    use crankpin_core::{crank_angles, drawing, engine::file, layout::Strokes, limits, pressure};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -56,10 +54,7 @@ mod _core {
         design::Objectives,
         engine::{Engine, check_load},
         explain::{Explanation, dead_text, explain, gas_text},
-        figures::{
-            drawn, drawn_loads, drawn_rod, fired_kinds, group_terms, listed_orders, load_rows,
-            orders_that_count, sizes, swept,
-        },
+        figures::{drawn, drawn_rod, drawn_turning, listed_orders, load_rows, rod_ratios},
         firing::{Firing, check_timing, inline_throws, vee_throws},
         flywheel::{CycleGrid, mean_inertias},
         matching::MeasuredParts,
@@ -101,7 +96,7 @@ mod _core {
         let exhaust_opens = [Strokes::Four, Strokes::Two].map(drawing::exhaust_opens_deg);
         module.add("EXHAUST_OPENS_DEG", exhaust_opens)?;
         module.add("HIGHEST_ORDER", limits::HIGHEST_ORDER)?;
-        module.add("HIGHEST_LISTED", figures::HIGHEST_LISTED)?;
+        module.add("EQUAL_FREQUENCIES", crankpin_core::mounts::EQUAL_FREQUENCIES)?;
         module.add("FEWEST_POINTS", crank_angles::FEWEST_POINTS)?;
         module.add("MOST_CYLINDERS", limits::MOST_CYLINDERS)?;
         module.add("LARGEST_RESULT", limits::LARGEST_RESULT)?;

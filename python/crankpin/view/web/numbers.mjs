@@ -4,7 +4,7 @@
 // polynomials are evaluated at (the rod ratio), or by how much a bank's terms are turned (the bank angle).
 
 import { multiply, reduced, scale, unit } from "./complex.mjs";
-import { chebyshev, crankAt, factorsAt, orderSum, realSum, summed } from "./series.mjs";
+import { chebyshev, column, crankAt, factorsAt, orderSum, realSum, summed, unturned } from "./series.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 
@@ -15,7 +15,7 @@ export class Numbers {
   constructor(figures, settings) {
     const { terms } = figures;
     const { loads } = terms;
-    const factor = factorsAt(terms.rod_ratios, settings.rod_ratio);
+    const factor = factorsAt(figures.rod_ratios, settings.rod_ratio);
     const square = angularSpeed(settings.rpm) ** 2;
     const shift = (bank) => shiftOf(figures, settings, bank);
     // Rows of further loads say what they are multiplied by as the speed changes.
@@ -40,11 +40,11 @@ export class Numbers {
     this.orders = terms.orders.map(at);
     this.planar = [...planar.keys()].sort((a, b) => a - b).map(at);
     /** Phasors by order: roll torque of inertia, N·m; moment of inertia of pistons and rods, kg·m². */
-    this.inertia = torque && new Map([...first(torque)].map(([n, roll]) => [n, scale(roll, square)]));
+    this.inertia = torque && new Map([...column(torque, 0)].map(([n, roll]) => [n, scale(roll, square)]));
     /** Roll torque of further loads by order, N·m; order 0 is its mean. */
     const ofLoads = summed(loads.torque, ofLoad, lagging);
-    this.loads = first(ofLoads);
-    this.loadsOnCrank = new Map([...this.loads.keys()].map((n) => [n, ofLoads.get(n)[1]]));
+    this.loads = column(ofLoads, 0);
+    this.loadsOnCrank = column(ofLoads, 1);
     this.moving = torque && new Map([...torque].flatMap(([n, [, moving]]) => (moving ? [[n, moving]] : [])));
     /** Gas pressure on each piston; null where there is none. */
     this.gas = figures.cylinders.map((given) => (given.cycle === null ? null : {
@@ -52,7 +52,7 @@ export class Numbers {
       panels: figures.gas.cycles[given.cycle],
       crankcase: figures.gas.crankcase,
       delay: shift(given.bank).delay,
-      swept: first(summed(terms.swept[given.swept] ?? [], factor, () => (value) => value)),
+      velocity: column(summed(figures.motions[given.motion].height, factor, unturned), 1),
     }));
     this.cycle = figures.strokes === 2 ? 360 : 720;
     /** Degrees after which forces and moments repeat, and all that is drawn. */
@@ -83,8 +83,8 @@ export class Numbers {
     let [gas, driving] = [0, 0];
     this.gas.forEach((cylinder, k) => {
       if (!cylinder) return;
-      const { swept, crankcase, roll, tdc_deg: tdc, delay } = cylinder;
-      const work = (pressures[k] - crankcase) * realSum(swept, unit(thetaDeg - tdc - delay));
+      const { swept, velocity, crankcase, roll, tdc_deg: tdc, delay } = cylinder;
+      const work = (pressures[k] - crankcase) * swept * realSum(velocity, unit(thetaDeg - tdc - delay));
       gas += roll * work;
       driving -= work;
     });
@@ -107,9 +107,6 @@ export class Numbers {
     return chebyshev(coefficients[k], (2 * at - edges[k] - edges[k + 1]) / (edges[k + 1] - edges[k]));
   }
 }
-
-/** The first value of each order, ascending. */
-const first = (values) => new Map([...values].sort(([a], [b]) => a - b).map(([n, [value]]) => [n, value]));
 
 const isHalf = (order) => !Number.isInteger(order);
 

@@ -1,8 +1,8 @@
 // Places of an engine's parts, to draw them: as it is built at settings, and at a crank angle.
 
-import { DEGREE, add, multiply, reduced, scale, unit } from "./complex.mjs";
+import { add, multiply, reduced, scale, unit } from "./complex.mjs";
 import { shiftOf } from "./numbers.mjs";
-import { crankAt, turnedBy } from "./series.mjs";
+import { column, crankAt, factorsAt, realSum, summed, turnedBy, unturned } from "./series.mjs";
 
 /** Settings that leave the engine as it was given. */
 export function ownSettings({ rpm, bank_angle_deg, rod_ratio }) {
@@ -15,7 +15,9 @@ export function ownSettings({ rpm, bank_angle_deg, rod_ratio }) {
  * `figures` is what Python wrote of the engine; lengths in metres, degrees.
  */
 export function configure(figures, settings) {
-  const cylinders = figures.cylinders.map((given) => cylinderAt(figures, settings, given));
+  const [before, motions] = [figures, settings].map(({ rod_ratio: ratio }) => motionsAt(figures, ratio));
+  const cylinders = figures.cylinders.map((given) =>
+    cylinderAt(figures, settings, given, before[given.motion], motions[given.motion]));
   return {
     cylinders,
     cranks: figures.cranks,
@@ -29,7 +31,20 @@ export function configure(figures, settings) {
   };
 }
 
-function cylinderAt(figures, settings, given) {
+/**
+ * How pistons move at a rod ratio, in crank radii above the end of a rod that stands along the bore: phasors of
+ * heights, degrees after TDC at which they are highest and lowest, and heights there.
+ */
+function motionsAt({ motions, rod_ratios: ratios }, ratio) {
+  const factor = factorsAt(ratios, ratio);
+  return motions.map(({ height, turning }) => {
+    const ends = summed(turning, factor, unturned);
+    const [angles, heights] = [0, 1].map((place) => ends.get(place)[0]);
+    return { height: column(summed(height, factor, unturned), 0), angles, heights };
+  });
+}
+
+function cylinderAt(figures, settings, given, before, motion) {
   const { crank_radius: r, pin_offset: e } = given;
   const { x, y, ratio } = figures.cranks[given.crank];
   const own = settings.rod_ratio === figures.rod_ratio;
@@ -43,6 +58,9 @@ function cylinderAt(figures, settings, given) {
   return {
     ...given,
     rod_length: l,
+    height: motion.height,
+    /** Heights of the piston pin where the piston is highest and lowest. */
+    extremes: motion.heights.map((height) => l + r * height),
     yoke,
     tdc_deg: tdcDeg,
     pin_deg: pinDeg,
@@ -53,7 +71,7 @@ function cylinderAt(figures, settings, given) {
     direction: unit(bankDeg),
     pin: unit(pinDeg),
     tdc: unit(tdcDeg),
-    strokes: strokes(figures, given, delay, l),
+    strokes: strokes(figures, given, delay, before.angles, motion.angles),
   };
 }
 
@@ -61,10 +79,8 @@ function cylinderAt(figures, settings, given) {
  * Crank angles at which the strokes of a cylinder begin, the power stroke first; null if the firing
  * order is not known. Strokes go from one turning point of the piston to the next.
  */
-function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength) {
+function strokes({ firing_deg: firing, strokes: count }, given, delay, [before], [highest, lowest]) {
   if (!firing || firing[given.number - 1] === null) return null;
-  const [highest, lowest] = turningPoints(given.crank_radius, rodLength, given.pin_offset);
-  const [before] = turningPoints(given.crank_radius, given.rod_length, given.pin_offset);
   const cycle = count === 2 ? 360 : 720;
   // As many degrees later as its piston is highest later.
   const fires = reduced(firing[given.number - 1] + delay + highest - before, cycle);
@@ -77,17 +93,6 @@ function strokes({ firing_deg: firing, strokes: count }, given, delay, rodLength
         ["intake", fires + 360, fires + 360 + down],
         ["compression", fires + 360 + down, fires + 720],
       ];
-}
-
-/** Degrees after TDC at which the piston is highest and lowest: crank and rod are in line. */
-function turningPoints(r, l, e) {
-  return [Math.asin(e / (l + r)) / DEGREE, 180 + Math.asin(e / (l - r)) / DEGREE];
-}
-
-/** Heights of the piston pin where the piston is highest and lowest. */
-export function extremeHeights(cylinder) {
-  const { crank_radius: r, rod_length: l, pin_offset: e } = cylinder;
-  return turningPoints(r, l, e).map((angle) => pistonHeight(cylinder, unit(angle)));
 }
 
 /** Counterweights on their cranks, and those of balance shafts. */
@@ -130,31 +135,16 @@ export function placesAt({ cylinders, weights: all }, thetaDeg) {
 }
 
 function cylinderPlaces(cylinder, crank) {
-  const { ratio, axis, crank_radius: r } = cylinder;
+  const { ratio, axis, crank_radius: r, rod_length: l } = cylinder;
   const past = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
   // Offsets are on the side to which the crankpin swings, so that either sense moves the piston alike.
-  const height = pistonHeight(cylinder, turnedBy(past, Math.abs(ratio)));
+  const height = l + r * realSum(cylinder.height, turnedBy(past, Math.abs(ratio)));
   const [dx, dy] = cylinder.direction;
   const crankpin = add(axis, scale(multiply(turnedBy(crank, ratio), cylinder.pin), r));
   // The path of the piston pin lies left of the bore's direction by the offset, on a crank that turns as
   // the main one does.
   const wrist = add(axis, [height * dx - cylinder.shift * dy, height * dy + cylinder.shift * dx]);
   const foot = cylinder.yoke
-    ? add(axis, scale(cylinder.direction, height - cylinder.rod_length)) : crankpin;
+    ? add(axis, scale(cylinder.direction, height - l)) : crankpin;
   return { height, crankpin, foot, wrist };
-}
-
-/**
- * Height of the piston pin along its bore: that of the crankpin and that of the rod above it.
- *
- * @param {any} cylinder
- * @param {number[]} crank
- */
-function pistonHeight({ crank_radius: r, rod_length: l, pin_offset: e, yoke }, [cos, sin]) {
-  if (yoke) return r * cos + l;
-  // 1 − sin θ and 1 + sin θ, the smaller one from cos² θ: the rod may be barely long enough.
-  const [toAbove, toBelow] = sin > 0
-    ? [(cos * cos) / (1 + sin), 1 + sin]
-    : [1 - sin, (cos * cos) / (1 - sin)];
-  return r * cos + Math.sqrt((l - r + e + r * toAbove) * (l - r - e + r * toBelow));
 }

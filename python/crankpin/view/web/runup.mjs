@@ -11,6 +11,9 @@ const MARGIN = { left: 58, right: 12, top: 34, bottom: 24 };
 /** Decades that are drawn at most. */
 const DECADES = 4;
 
+/** Lengths so many times the middle one are those of an order that meets a mode without damping: rounding alone bounds them. */
+const BOUNDLESS = 1e5;
+
 /** Lines on which numbers of modes stand. */
 const LEVELS = 2;
 
@@ -49,7 +52,8 @@ export class RunUp {
     const [name, factor = 1] = unit;
     const shown = values.map((each) => each?.map((value) => value * factor));
     const lengths = shown.map((each) => each && Math.hypot(...each));
-    const known = lengths.filter((each) => each > 0 && Number.isFinite(each));
+    const some = lengths.filter((each) => each > 0 && Number.isFinite(each)).sort((a, b) => a - b);
+    const known = some.filter((each) => each < BOUNDLESS * some[some.length >> 1]);
     show(this.note, "", known.length ? "" : MOUNT_STRINGS.nothingMoves);
     place(this.note, [MARGIN.left + 8, (MARGIN.top + bottom) / 2]);
     this.frame.setAttribute("d", `M${MARGIN.left} ${MARGIN.top}V${bottom}H${this.right}`);
@@ -63,7 +67,7 @@ export class RunUp {
       const flush = () => { d += run.length > 1 ? path(run) : ""; run = []; };
       speeds.forEach((rpm, at) => {
         const value = shown[at] && (k < 3 ? shown[at][k] : lengths[at]);
-        if (value >= 10 ** floor && Number.isFinite(value)) run.push([this.x(rpm), y(value)]);
+        if (value >= 10 ** floor && value <= 10 ** top) run.push([this.x(rpm), y(value)]);
         else flush();
       });
       flush();

@@ -2,7 +2,6 @@
 
 import { add, multiply, scale, unit } from "./complex.mjs";
 import { fixed, path, place, svg, translate } from "./dom.mjs";
-import { extremeHeights } from "./places.mjs";
 import { Projection, hull } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
 
@@ -344,8 +343,7 @@ function dimensions(engine) {
 
 /** Lower end and head of a bore, and where its axis passes its crank's. */
 export function boreEnds(cylinder) {
-  const { crank_radius: r, shift, direction: [dx, dy] } = cylinder;
-  const [highest, lowest] = extremeHeights(cylinder);
+  const { crank_radius: r, shift, direction: [dx, dy], extremes: [highest, lowest] } = cylinder;
   return {
     low: Math.max(lowest - SKIRT * r, 1.1 * r),
     top: highest + (CROWN + HEAD) * r,

@@ -15,8 +15,9 @@ export function chebyshev(coefficients, x) {
 }
 
 /** Factors of rows at a rod ratio; without one, at the engine's own. */
-export function factorsAt([least, most, turning], ratio) {
+export function factorsAt(ratios, ratio) {
   if (ratio === null) return ([, , , , own]) => own;
+  const [least, most, turning] = ratios;
   // The variable of the polynomials, in which a few terms are enough.
   const [low, high, q] = [least, most, ratio].map((each) => Math.tan(0.5 * Math.asin(each / turning)));
   const x = (2 * q - low - high) / (high - low);
@@ -47,6 +48,12 @@ export function summed(rows, factor, turn) {
   const kept = ({ sum, size }) => (magnitude(sum) > ROUNDING * size ? sum : [0, 0]);
   return new Map([...found].map(([order, sums]) => [order, sums.map(kept)]));
 }
+
+/** The numbered value of each order, ascending. */
+export const column = (sums, k) => new Map([...sums].sort(([a], [b]) => a - b).map(([order, values]) => [order, values[k]]));
+
+/** Values of a group that nothing turns. */
+export const unturned = () => (value) => value;
 
 /** A crank angle: e^{iθ}, and behind it e^{iθ/2}, which turns by half orders are of. */
 export const crankAt = (thetaDeg) => [...unit(thetaDeg), ...unit(0.5 * thetaDeg)];

@@ -9,7 +9,7 @@ export class Settings {
   constructor(view) {
     this.view = view;
     const { figures } = view;
-    const [least, most] = figures.terms.rod_ratios;
+    const [least, most] = figures.rod_ratios ?? [0, 1];
     // Cars' engines reach 8000 rpm, slow ones half as much again as they are shown at first.
     const slow = figures.rpm > 0 && figures.rpm < 1000;
     const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);

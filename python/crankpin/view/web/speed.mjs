@@ -5,16 +5,13 @@ import { angularSpeed } from "./numbers.mjs";
 /** Steps of Newton's method, which doubles the digits with each. */
 const ITERATIONS = 50;
 
-/** Lowest square of a speed, over its mean, at which an engine runs: the library's. */
-const SLOWEST = 1e-4;
-
 /**
  * Speeds in rpm at equal angles of a cycle, the first repeated at the end; null if the crank would stop.
  *
  * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of gas and loads on the crank, J has
  * pistons and rods, and E makes the mean speed that of turns over time.
  */
-export function speeds({ driving, moving }, { flywheel, rpm, cycle }) {
+export function speeds({ driving, moving }, { flywheel, slowest }, { rpm, cycle }) {
   const mean = angularSpeed(rpm);
   if (flywheel === null || mean === 0) return null;
   const count = driving.length - 1;
@@ -29,8 +26,8 @@ export function speeds({ driving, moving }, { flywheel, rpm, cycle }) {
   }
   const inertia = moving.map((own) => flywheel + own);
   // Newton's method for E; time falls with E and is convex, so that from below it does not overshoot.
-  const slowest = 0.5 * SLOWEST * mean ** 2;
-  let energy = Math.max(...work.map((done, k) => slowest * inertia[k] - done));
+  const least = 0.5 * slowest * mean ** 2;
+  let energy = Math.max(...work.map((done, k) => least * inertia[k] - done));
   for (let k = 0; k < ITERATIONS; k++) {
     let [turns, slope] = [0, 0];
     for (let i = 0; i < count; i++) {

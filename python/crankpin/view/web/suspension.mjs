@@ -8,9 +8,6 @@ import { add, multiply, scale } from "./complex.mjs";
 import { SIX, applied, singular, solveComplex } from "./linear.mjs";
 import { angularSpeed } from "./numbers.mjs";
 
-/** Relative difference of two frequencies within which shapes are not distinguished: as in the library. */
-const EQUAL_FREQUENCIES = 1e-9;
-
 export class Suspension {
   /** `figures` is what Python wrote of the powertrain; `mounts` places and stiffnesses, in its order. */
   constructor(figures, mounts) {
@@ -69,7 +66,7 @@ export class Suspension {
         energy: shape.map((part, k) => 100 * part * moved[k]),
       };
     });
-    return inGroups(modes);
+    return inGroups(modes, this.figures.equal_frequencies);
   }
 
   /** Terms of stiffness at a frequency in Hz, of which the real parts of the matrix lack the mass; null outside a table. */
@@ -173,12 +170,12 @@ function fluid({ above, below }, x) {
   return scale(multiply(top, [re, -im]), 1 / (re * re + im * im));
 }
 
-/** Modes with the mean energies of those of one frequency, and with their purity. */
-function inGroups(modes) {
+/** Modes with the mean energies of those of one frequency, within a part of it, and with their purity. */
+function inGroups(modes, within) {
   const groups = [];
   modes.forEach((mode, k) => {
     const below = modes[k - 1]?.omega;
-    if (k && mode.omega - below <= EQUAL_FREQUENCIES * mode.omega) groups.at(-1).push(mode);
+    if (k && mode.omega - below <= within * mode.omega) groups.at(-1).push(mode);
     else groups.push([mode]);
   });
   return groups.flatMap((group) => {

@@ -12,13 +12,13 @@ const NOISE = 1e-11;
 const BETWEEN = 0.03;
 
 /** Forces, moments, torques and speeds of a turn, its last sample that of the first; with gas of a cycle. */
-export function turn(numbers, flywheel, rpm) {
+export function turn(numbers, figures, rpm) {
   const samples = Array.from({ length: numbers.span / STEP + 1 }, (_, k) => numbers.at(k * STEP));
   /** @type {any} */
   const curve = Object.fromEntries(["force", "moment", "torque", "inertia", "gas", "loads", "driving", "moving"]
     .map((name) => [name, samples.map((each) => each[name])]));
   for (const name of ["force", "moment"]) curve[name].length = numbers.turn / STEP + 1;
-  return { ...curve, speed: speeds(curve, { flywheel, rpm, cycle: numbers.span }) };
+  return { ...curve, speed: speeds(curve, figures, { rpm, cycle: numbers.span }) };
 }
 
 /** Longest force and moment and largest torque of a turn; zero if they are rounding. */

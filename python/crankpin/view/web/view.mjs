@@ -40,7 +40,8 @@ export class View extends Turning {
   }
 
   check({ rod_ratio: ratio, rpm }) {
-    const { loads, rod_ratios: [least, most] } = this.figures.terms;
+    const { terms: { loads }, rod_ratios: ratios } = this.figures;
+    const [least, most] = ratios ?? [];
     if (ratio < least || ratio > most) {
       throw new RangeError(`rod_ratio = ${ratio}: ${STRINGS.give} ${least}–${most}`);
     }
@@ -62,7 +63,7 @@ export class View extends Turning {
     const core = this.core && SETTINGS.every((key) => this.core.settings[key] === state[key])
       ? this.core : null;
     this.orders = core ? core.orders : this.numbers.orders;
-    this.curve = core ? core.curve : turn(this.numbers, this.figures.flywheel, state.rpm);
+    this.curve = core ? core.curve : turn(this.numbers, this.figures, state.rpm);
     this.peaks = peaks(this.numbers, this.curve);
     this.readouts.layout(this.peaks);
     const { speed } = this.curve;

@@ -511,6 +511,17 @@ impl Engine {
         self.distinct_cylinders.iter().map(Cylinder::crank_radius).fold(0.0, f64::max)
     }
 
+    /// The same engine with this rod ratio of all cylinders.
+    pub fn at_rod_ratio(&self, ratio: f64) -> Result<Self> {
+        let mut engine = self.clone();
+        for Station { cylinder, .. } in &mut engine.stations {
+            *cylinder = cylinder.at_rod_ratio(ratio)?;
+        }
+        (engine.distinct_cylinders, engine.distinct_cylinder_of) =
+            distinct(engine.stations.iter().map(|station| station.cylinder));
+        Ok(engine)
+    }
+
     /// The same engine with its whole crank turned so that the first cylinder is at top dead
     /// centre at this crank angle.
     #[must_use]

@@ -106,6 +106,16 @@ impl Cylinder {
         Ok(Self { rod_inertia_excess: excess, ..self })
     }
 
+    /// The same masses with another rod ratio, of which 0 is that of an infinite rod.
+    pub(crate) fn at_rod_ratio(self, ratio: f64) -> Result<Self> {
+        if ratio == self.rod_ratio() {
+            return Ok(self);
+        }
+        let rod_length = self.crank_radius / ratio;
+        Self::new(self.crank_radius, rod_length, self.reciprocating_mass, self.pin_offset)?
+            .with_rod_inertia_excess(self.rod_inertia_excess)
+    }
+
     /// The same lengths without masses: the motion depends on no more.
     #[must_use]
     pub(crate) fn without_masses(self) -> Self {

@@ -63,11 +63,17 @@ impl InertialActuator {
                             loss_factor or damping";
                 Error::figure("frequency", frequency, hint)
             })?;
-            let ratio = self.resonance / frequency;
-            let share = Complex64::new(1.0 - ratio * ratio, -2.0 * self.damping_ratio * ratio);
+            // All over the square of the larger of both frequencies, which may lie far apart.
+            let larger = frequency.max(self.resonance);
+            let [own, sprung] = [frequency / larger, self.resonance / larger];
+            let loss = 2.0 * self.damping_ratio * own;
+            let share = Complex64::new(own * own - sprung * sprung, -loss * sprung);
             let receptance: Complex64 = unit.dot(&state.motion);
-            let spring = (Complex64::ONE - share) * (self.mass * omega * omega);
-            Ok(receptance * Complex64::new(0.0, omega) / (share + spring * receptance))
+            let resonance = TAU * self.resonance * own;
+            let spring =
+                Complex64::new(resonance * resonance, loss * resonance * omega) * self.mass;
+            let velocity = receptance * Complex64::new(0.0, omega * own * own);
+            Ok(velocity / (share + spring * receptance))
         };
         let tasks = frequency.chunks(POINTS_PER_TASK).collect();
         let found = pool::map(cancel, tasks, |few: &[f64]| {

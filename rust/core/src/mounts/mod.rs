@@ -27,7 +27,7 @@ pub use self::bodies::matrices;
 pub use self::body::{Products, RigidBody};
 pub use self::feedback::InertialActuator;
 pub use self::footprint::support_polygon;
-pub use self::modes::{FreeMotion, Modes, free_motions, modes};
+pub use self::modes::{EQUAL_FREQUENCIES, FreeMotion, Modes, free_motions, modes};
 pub(crate) use self::modes::{NaturalModes, frequency_and_purity, natural_at};
 pub use self::mount::{Mount, MountFigures, motion_of_point};
 pub use self::robustness::{MountTolerances, Robustness, robustness};

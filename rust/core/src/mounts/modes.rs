@@ -15,7 +15,7 @@ use crate::numbers::singular_values::{right_vectors, scale_of};
 
 /// Relative difference of two frequencies within which rounding of the figures decides which shapes of
 /// their common plane are modes.
-const EQUAL_FREQUENCIES: f64 = 1e-9;
+pub const EQUAL_FREQUENCIES: f64 = 1e-9;
 /// Singular value over the largest, for each row and column, that rounding makes of zero.
 const RANK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Rows reduced at once: those of the triangle, and of some mounts.

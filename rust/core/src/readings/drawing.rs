@@ -4,6 +4,9 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::flywheel::SLOWEST;
+use super::page::{self, MotionRows, PageTerms};
+use super::rows::RodRatios;
 use crate::engine::layout::Strokes;
 use crate::engine::{Engine, Unbalance};
 use crate::firing::Firing;
@@ -48,6 +51,12 @@ pub struct Drawing {
     pub firing_deg: Option<Vec<Option<f64>>>,
     /// Angle before the lowest place of a piston at which exhausts open: an ordinary one.
     pub exhaust_opens_deg: f64,
+    /// The engine's own rod ratio where its rows are of others too; none where cylinders differ.
+    pub rod_ratio: Option<f64>,
+    /// Rod ratios that rows are of: the least, the largest, and that below which the crank turns.
+    pub rod_ratios: Option<RodRatios>,
+    /// How pistons move, of those that differ.
+    pub motions: Vec<MotionRows>,
 }
 
 /// Axis of a crank, m, and its speed over that of the main one.
@@ -94,6 +103,8 @@ pub struct DrawnCylinder {
     tdc_deg: f64,
     bank_deg: f64,
     z: f64,
+    /// Place of its piston's motion among those that differ.
+    motion: usize,
     /// Place of its cycle among those that differ.
     cycle: Option<usize>,
     #[serde(flatten)]
@@ -105,8 +116,8 @@ pub struct DrawnCylinder {
 pub struct DrawnPressure {
     /// Crank angle at which its cycle begins.
     pressure_deg: f64,
-    /// Place of its running gear among those of [`fired_kinds`].
-    swept: usize,
+    /// Volume that the piston sweeps over a crank radius, m³.
+    swept: f64,
     /// Sense of its crank: on one that turns the other way the torque on the block is the mirror's.
     roll: i32,
 }
@@ -138,8 +149,9 @@ pub struct DrawnBlock {
 }
 
 impl Drawing {
-    /// That of an engine.
-    pub fn new(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
+    /// That of an engine, at these rod ratios or its own alone.
+    pub fn new(engine: &Arc<Engine>, ratios: Option<RodRatios>, cancel: &Cancel) -> Result<Self> {
+        let (motions, motion_of) = page::motions(engine, ratios.as_ref(), cancel)?;
         let cranks = engine.cranks().iter().map(|crank| {
             let [x, y] = crank.axis;
             DrawnCrank { x, y, ratio: crank.ratio }
@@ -155,11 +167,44 @@ impl Drawing {
             reference_z: engine.reference(None)?,
             bank_angle_deg: engine.changeable_bank_angle(),
             cranks: cranks.collect(),
-            cylinders: cylinders(engine),
+            cylinders: cylinders(engine, &motion_of),
             counterweights: unbalances(engine.counterweights()),
             shafts: shafts.collect(),
             firing_deg: firing(engine, cancel)?,
             exhaust_opens_deg: exhaust_opens_deg(engine.strokes()),
+            rod_ratio: ratios.and_then(|ratios| ratios.common),
+            rod_ratios: ratios,
+            motions,
+        })
+    }
+}
+
+/// An engine that turns: its drawing, and what its forces, moments and torques are sums of.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Turning {
+    #[serde(flatten)]
+    drawing: Drawing,
+    terms: PageTerms,
+    block: Option<DrawnBlock>,
+    gas: Option<DrawnGas>,
+    /// Lowest square of the crank's speed, over that of its mean, at which the engine runs.
+    slowest: f64,
+}
+
+impl Turning {
+    /// That of an engine, at these rod ratios or its own alone; tables of loads must have the speed, rpm.
+    pub fn new(
+        engine: &Arc<Engine>,
+        ratios: Option<RodRatios>,
+        rpm: f64,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        Ok(Self {
+            drawing: Drawing::new(engine, ratios, cancel)?,
+            terms: PageTerms::new(engine, ratios.as_ref(), rpm, cancel)?,
+            block: block(engine),
+            gas: gas(engine),
+            slowest: SLOWEST,
         })
     }
 }
@@ -184,15 +229,14 @@ fn firing(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Option<Vec<Option<f64
     Ok(Some(fired.map(|(angle, of)| (!of.dummy).then_some(angle)).collect()))
 }
 
-fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
-    let (kinds, cycles) = (fired_kinds(engine), cycles(engine));
+fn cylinders(engine: &Engine, motion_of: &[usize]) -> Vec<DrawnCylinder> {
+    let cycles = cycles(engine);
     // Of two banks the right one comes first, whichever has the first index.
     let swapped = engine.banks().is_ok_and(|banks| banks.right == 1);
     let drawn = |i: usize| {
         let (station, crank) = (&engine.stations()[i], engine.crank_of(i));
         let (parts, bank) = (&station.cylinder, engine.bank_of(i));
         let cycle = engine.pressure_of(i).map(|(cycle, _)| cycle);
-        let swept = kinds.iter().position(|&k| kind(engine, k) == kind(engine, i));
         let ratio = engine.cranks()[crank].ratio;
         let pressure = |swept| DrawnPressure {
             pressure_deg: engine.firing_phase(i).degrees(),
@@ -211,29 +255,12 @@ fn cylinders(engine: &Engine) -> Vec<DrawnCylinder> {
             tdc_deg: station.tdc.degrees(),
             bank_deg: station.bank.degrees(),
             z: station.z,
-            pressure: cycle.as_ref().and(swept).map(pressure),
+            motion: motion_of[i],
+            pressure: cycle.as_ref().and(engine.swept_by_radius(i)).map(pressure),
             cycle: cycle.and_then(|cycle| cycles.iter().position(|known| *known == cycle)),
         }
     };
     (0..engine.stations().len()).map(drawn).collect()
-}
-
-/// Running gear and bore of a cylinder, of which its swept volume follows.
-fn kind(engine: &Engine, cylinder: usize) -> (Cylinder, Option<f64>) {
-    (engine.stations()[cylinder].cylinder, engine.details()[cylinder].bore)
-}
-
-/// Cylinders that differ among those with pressure, by their running gear and bore, in the order in which
-/// cylinders have them, each by the index of its first cylinder.
-#[must_use]
-pub fn fired_kinds(engine: &Engine) -> Vec<usize> {
-    let mut kinds: Vec<usize> = Vec::new();
-    for i in (0..engine.stations().len()).filter(|&i| engine.pressure_of(i).is_some()) {
-        if !kinds.iter().any(|&known| kind(engine, known) == kind(engine, i)) {
-            kinds.push(i);
-        }
-    }
-    kinds
 }
 
 /// Turns of the main crank after which all of an engine repeats: its strokes, what turns with cranks and
@@ -269,8 +296,7 @@ fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
 }
 
 /// Pressure in the cylinders of an engine, if it counts.
-#[must_use]
-pub fn gas(engine: &Engine) -> Option<DrawnGas> {
+fn gas(engine: &Engine) -> Option<DrawnGas> {
     let (_, crankcase) = (0..engine.stations().len()).find_map(|i| engine.pressure_of(i))?;
     Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| drawn_cycle(c)).collect() })
 }
@@ -297,8 +323,7 @@ pub fn drawn_rod(cylinder: &Cylinder) -> f64 {
 
 /// A bar that stands for the block: as tall as a crank with its rod, and half of that longer than the
 /// cylinders at either end; none where the pistons have no mass.
-#[must_use]
-pub fn block(engine: &Engine) -> Option<DrawnBlock> {
+fn block(engine: &Engine) -> Option<DrawnBlock> {
     let cylinders = || engine.stations().iter().map(|station| station.cylinder);
     let mass =
         BLOCK_MASS_RATIO * cylinders().map(|c: Cylinder| c.reciprocating_mass()).sum::<f64>();

@@ -12,6 +12,7 @@ use super::terms::{LoadSums, terms};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::{Load, Scene};
+use crate::mechanism::spectrum::Spectrum;
 use crate::numbers::UNIT_RPM;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -27,11 +28,11 @@ const REST: f64 = 1e-12;
 /// Sums below this part of what was added are rounding.
 const FIGURE_ROUNDING: f64 = 1e-13;
 /// Groups of parts: the right bank, the left one, and what stands still as the bank angle changes.
-pub const GROUPS: usize = 3;
+pub(super) const GROUPS: usize = 3;
 
 /// Terms of an order over ω², of each group.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct GroupTerms {
+pub(super) struct GroupTerms {
     /// Forward and backward parts of the force, then of the moment.
     pub planar: [Complex64; 4],
     /// Roll torque of inertia.
@@ -59,7 +60,7 @@ impl GroupTerms {
 }
 
 /// Speeds at which cranks turn, over that of the main one.
-fn speeds(engine: &Engine) -> Result<BTreeSet<Order>> {
+pub(super) fn speeds(engine: &Engine) -> Result<BTreeSet<Order>> {
     engine.cranks().iter().map(|crank| crank.ratio.order()).collect()
 }
 
@@ -74,15 +75,30 @@ fn with_shafts(highest: u32, engine: &Engine, others: BTreeSet<Order>) -> Result
     Ok(all.collect::<Result<BTreeSet<_>>>()?.into_iter().collect())
 }
 
+/// Orders of the main crank that a spectrum has.
+fn spectrum_orders(engine: &Engine) -> Result<BTreeSet<Order>> {
+    let speeds = speeds(engine)?;
+    let harmonics = engine.spectrum().map(Spectrum::orders).unwrap_or_default();
+    let orders = harmonics.iter().flat_map(|n| speeds.iter().map(move |speed| n * speed.halves()));
+    orders.map(Order::from_halves).collect()
+}
+
 /// Orders whose phasors are listed: of pistons, of shafts and of further loads.
 pub fn listed_orders(engine: &Engine) -> Result<Vec<Order>> {
     let of_loads = load_orders(engine)?.into_iter();
-    let listed = of_loads.filter(|order| order.halves() <= 2 * HIGHEST_LISTED).collect();
+    let mut listed: BTreeSet<_> =
+        of_loads.filter(|order| order.halves() <= 2 * HIGHEST_LISTED).collect();
+    listed.extend(spectrum_orders(engine)?);
     with_shafts(HIGHEST_LISTED, engine, listed)
 }
 
 /// Orders of the cylinders that are more than a rest, of their cranks, and of shafts.
-pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
+pub(super) fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
+    if engine.spectrum().is_some() {
+        let mut others = spectrum_orders(engine)?;
+        others.extend(speeds(engine)?);
+        return with_shafts(0, engine, others);
+    }
     let bare = engine.bare();
     let mut count = HIGHEST_LISTED;
     let last = loop {
@@ -112,7 +128,7 @@ pub fn orders(engine: &Engine, cancel: &Cancel) -> Result<Vec<Order>> {
 ///
 /// Cylinders of the right bank are group 0 and of the left 1 where a change of bank angle moves them
 /// apart, and the rest is 2; all are group 0 of other engines.
-pub fn group_terms(
+pub(super) fn group_terms(
     engine: &Engine,
     of_cylinders: bool,
     orders: &[Order],
@@ -258,27 +274,13 @@ pub fn load_rows(engine: &Engine, rpm: f64, torque: bool, cancel: &Cancel) -> Re
     Ok(rows)
 }
 
-/// Volume that a cylinder's piston adds per radian past its top dead centre, m³: phasors of orders.
-pub fn swept(
-    engine: &Engine,
-    cylinder: usize,
-    orders: &[u32],
-    cancel: &Cancel,
-) -> Result<Vec<Complex64>> {
-    let area_by_radius = engine.swept_by_radius(cylinder).unwrap_or(0.0);
-    let harmonics = engine.mechanism(cylinder).force(orders, cancel)?;
-    // The volume added per radian is the integral of the piston's acceleration.
-    let pairs = orders.iter().zip(harmonics);
-    Ok(pairs.map(|(&n, a)| Complex64::i() * a * area_by_radius / f64::from(n)).collect())
-}
-
 /// Mean moment of inertia of pistons and rods as seen from the crank, kg·m².
-pub fn mean_inertia(engine: &Engine, cancel: &Cancel) -> Result<f64> {
+pub(super) fn mean_inertia(engine: &Engine, cancel: &Cancel) -> Result<f64> {
     Ok(mean_inertias(engine, cancel)?.iter().sum())
 }
 
 /// What the cylinders make one by one, at order 1 of their crank.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Sizes {
     /// Of force, over ω², kg·m.
     pub force: f64,
@@ -291,7 +293,7 @@ pub struct Sizes {
 }
 
 /// What the cylinders make one by one.
-pub fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
+pub(super) fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
     let speeds: Vec<Order> = speeds(engine)?.into_iter().collect();
     let parts = terms(&engine.bare(), &request(false), [0.0; 2], &speeds, cancel)?;
     let reference = engine.reference(None)?.abs();

@@ -35,7 +35,7 @@ const MOST_CELLS: usize = 1_000_000;
 /// Cells evaluated between two checks for cancellation.
 const PIECE: usize = 1 << 12;
 /// Lowest square of a speed, over its mean, at which an engine runs.
-const SLOWEST: f64 = 1e-4;
+pub(super) const SLOWEST: f64 = 1e-4;
 /// Largest irregularity that can be asked for.
 const MOST_IRREGULAR: f64 = 0.5;
 /// Part of the work of a drive below which its fluctuation is rounding.
