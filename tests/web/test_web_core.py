@@ -460,7 +460,7 @@ def doubtful_engine(seed: int) -> cp.Engine:
     theta = np.arange(0.0, 720.0, 2.0)
     sense = either(1, -1)
     pressure = cycle.pressure_at(sense * theta - either(0.0, 200.0)) * either(1.0, 1e-5, 1e-3)
-    engine = engine.replace(firing_order="1-2" if np.ptp(engine.z) else "1+2")
+    engine = engine.replace(firing_order="1-2" if np.ptp(engine.z) else "1")
     return engine.with_cycle(cp.Cycle(theta, pressure), crankcase=either(101325.0, 1.01))
 
 
@@ -522,7 +522,7 @@ def test_what_is_warned_of_is_the_librarys(ask: Ask, tmp_path: Path) -> None:
     on_mounts = [f"body.{each}" for each in ("cg", "inertia", "mass")]
     on_mounts += [f"mounts.{each}" for each in of_mounts]
     assert seen == {
-        "amount", "bore", "crank_radius", "crankcase", "cycles", "imep", "pressure",
+        "amount", "bore", "crank_radius", "crankcase", "imep", "pressure",
         "reciprocating_mass", "rod_length", "rotating_mass", "theta_deg", "x", "y", "z",
         "z (or spacing, bank_stagger)", *(f"powertrain.{each}" for each in on_mounts),
         *(f"powertrain.subframe.{each}" for each in on_mounts),

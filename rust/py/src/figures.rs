@@ -1,7 +1,7 @@
 //! Data for drawings of an engine, and for pictures of it turning.
 
 use crankpin_core::Complex64;
-use crankpin_core::drawing::{self, Drawing, Turning};
+use crankpin_core::drawing::{self, Drawing};
 use crankpin_core::figures;
 use crankpin_core::rows::RodRatios;
 use crankpin_macros::guarded;
@@ -49,8 +49,8 @@ pub fn drawn_turning(
     let core = engine.get().with_spectrum(spectrum)?;
     let ratios = RodRatios::of(&core);
     let drawn =
-        interrupt::run(engine.py(), |cancel| Turning::new(&core, Some(ratios), rpm, cancel))?;
-    Ok(json!(drawn).to_string())
+        interrupt::run(engine.py(), |cancel| drawing::turning(&core, Some(ratios), rpm, cancel))?;
+    Ok(drawn.to_string())
 }
 
 /// Terms of an engine's periodic loads, with torques or without; at a crank speed that they must have.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crankpin_core::drawing::Turning;
+use crankpin_core::drawing::turning;
 use crankpin_core::rows::RodRatios;
 use crankpin_core::{Cancel, Result};
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let sentences = sentences_of(&engine, (rpm > 0.0).then_some(rpm), false, &shown(arguments)?)?;
     let cancel = Cancel::new();
     let engine = Arc::new(engine);
-    let mut figures = json!(Turning::new(&engine, ratios, rpm, &cancel)?);
+    let mut figures = turning(&engine, ratios, rpm, &cancel)?;
     let own = json!({
         "rpm": rpm, "loads": loads, "flywheel": inertia, "compact": false, "sentences": sentences,
     });

@@ -63,13 +63,13 @@ pub fn least(request: &PhasorRequest, cancel: &Cancel) -> Result<Vec<Complex64>>
     let of_point = |((target, effect), bounds): ((&[Complex64], &[Complex64]), &[f64])| {
         cancel.check()?;
         let (effect, target) = (real_matrix(effect, actuators), real_column(target));
-        Ok(Point { effect, target, bounds }.least(request))
+        Ok(PhasorsAtPoint { effect, target, bounds }.least(request))
     };
     Ok(pool::map(cancel, tasks, of_point)?.concat())
 }
 
 /// One point in real numbers, real and imaginary part of each phasor side by side.
-struct Point<'a> {
+struct PhasorsAtPoint<'a> {
     effect: DMatrix<f64>,
     target: DVector<f64>,
     bounds: &'a [f64],
@@ -94,7 +94,7 @@ pub(super) fn real_column(phasors: &[Complex64]) -> DVector<f64> {
     DVector::from_iterator(2 * phasors.len(), parts)
 }
 
-impl Point<'_> {
+impl PhasorsAtPoint<'_> {
     fn least(&self, request: &PhasorRequest) -> Vec<Complex64> {
         let values = SingularValues::of(&self.effect).values;
         let Some(largest) = values.first().filter(|_| self.target.amax() > 0.0) else {

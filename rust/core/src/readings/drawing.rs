@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::flywheel::SLOWEST;
 use super::page::{self, MotionRows, PageTerms};
@@ -179,34 +180,21 @@ impl Drawing {
     }
 }
 
-/// An engine that turns: its drawing, and what its forces, moments and torques are sums of.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Turning {
-    #[serde(flatten)]
-    drawing: Drawing,
-    terms: PageTerms,
-    block: Option<DrawnBlock>,
-    gas: Option<DrawnGas>,
-    /// Lowest square of the crank's speed, over that of its mean, at which the engine runs.
-    slowest: f64,
-}
-
-impl Turning {
-    /// That of an engine, at these rod ratios or its own alone; tables of loads must have the speed, rpm.
-    pub fn new(
-        engine: &Arc<Engine>,
-        ratios: Option<RodRatios>,
-        rpm: f64,
-        cancel: &Cancel,
-    ) -> Result<Self> {
-        Ok(Self {
-            drawing: Drawing::new(engine, ratios, cancel)?,
-            terms: PageTerms::new(engine, ratios.as_ref(), rpm, cancel)?,
-            block: block(engine),
-            gas: gas(engine),
-            slowest: SLOWEST,
-        })
-    }
+/// An engine that turns, as JSON: its drawing, and what its forces, moments and torques are sums of; at these rod
+/// ratios or its own alone. Tables of loads must have the speed, rpm.
+pub fn turning(
+    engine: &Arc<Engine>,
+    ratios: Option<RodRatios>,
+    rpm: f64,
+    cancel: &Cancel,
+) -> Result<Value> {
+    let mut drawn = json!(Drawing::new(engine, ratios, cancel)?);
+    drawn["terms"] = json!(PageTerms::new(engine, ratios.as_ref(), rpm, cancel)?);
+    drawn["block"] = json!(block(engine));
+    drawn["gas"] = json!(gas(engine));
+    // Lowest square of the crank's speed, over that of its mean, at which the engine runs.
+    drawn["slowest"] = json!(SLOWEST);
+    Ok(drawn)
 }
 
 fn unbalances(list: &[Unbalance]) -> Vec<DrawnUnbalance> {

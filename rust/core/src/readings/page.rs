@@ -65,14 +65,14 @@ impl PageTerms {
             let tables = tables(engine, true, &orders, is_driven, cancel);
             let mut tables = tables?;
             if is_driven {
-                let mut mean = vec![0.0; 4 * GROUPS];
+                let mut mean = [0.0; 4 * GROUPS].to_vec();
                 mean[2] = mean_inertia(engine, cancel)?;
                 tables[1].orders.insert(0, (0.0, 0, mean));
             }
             Ok(tables)
         };
         let fewest = if is_given { 1 } else { FEWEST_ROD_RATIOS };
-        let mut rows = rows_of(engine, ratios, fewest, sample)?.into_iter();
+        let mut rows = rows_of(engine, ratios, fewest, &sample)?.into_iter();
         let mut standing = tables(engine, false, &orders, is_driven, cancel)?.into_iter();
         let mut table = || -> Option<Vec<PageRow>> {
             let mut rows = rows.next()?;
@@ -170,7 +170,7 @@ pub fn motions(
         let last = of.collect::<Result<Vec<_>>>()?.into_iter().max().unwrap_or(1);
         let orders: Vec<u32> = (1..=last).collect();
         let sample = |engine: &Engine| motion_tables(engine, cylinder, &orders, cancel);
-        let mut rows = rows_of(engine, ratios, FEWEST_ROD_RATIOS, sample)?.into_iter();
+        let mut rows = rows_of(engine, ratios, FEWEST_ROD_RATIOS, &sample)?.into_iter();
         let mut table = || rows.next().unwrap_or_default();
         Ok(MotionRows { height: table(), turning: table() })
     };

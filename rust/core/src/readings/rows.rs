@@ -61,11 +61,12 @@ impl RodRatios {
 
     /// Chebyshev's points in q, ascending, and the rod ratios there.
     fn points(&self, count: usize) -> Vec<(f64, f64)> {
-        let [low, high] =
-            [self.least, self.most].map(|ratio| (0.5 * (ratio / self.turning).asin()).tan());
+        // The tangent of half an angle of this sine, and the sine.
+        let [low, high] = [self.least, self.most].map(|ratio| ratio / self.turning);
+        let [low, high] = [low, high].map(|sine| sine / (1.0 + (1.0 - sine * sine).sqrt()));
         let point = |k: usize| {
             let q = low + 0.5 * (high - low) * (1.0 + chebyshev_angle(k, count).cos());
-            let ratio = self.turning * (2.0 * q.atan()).sin();
+            let ratio = self.turning * 2.0 * q / (1.0 + q * q);
             (q, ratio.clamp(self.least, self.most))
         };
         (0..count).map(point).collect()
@@ -162,7 +163,7 @@ pub(super) fn rows_of(
     engine: &Engine,
     ratios: Option<&RodRatios>,
     fewest: usize,
-    sample: impl Fn(&Engine) -> Result<Vec<OrderTable>>,
+    sample: &dyn Fn(&Engine) -> Result<Vec<OrderTable>>,
 ) -> Result<Vec<Vec<PageRow>>> {
     let Some(ratios) = ratios else {
         return Ok(sample(engine)?.iter().map(OrderTable::still).collect());
