@@ -28,6 +28,10 @@ LINES = {
     "banks": "--banks 60,120 --throws 0,120,240",
     "w": "--throws 0,120,240",
     "x": "--throws 0,90,270,180",
+    "opposed-pistons": "--throws 0,120,240 --distance 0.9",
+    "u": "--throws 0,180 --distance 0.3",
+    "square-four": "--distance 0.1",
+    "h": "--throws 0,180 --distance 0.3",
 }
 """Builder → what it needs."""
 WHOLE = "--stroke 80mm --rod-length 140mm --piston-mass 400g --rod-mass 500g"
@@ -52,6 +56,10 @@ SOUND = {
     "--numbering": "--numbering by-bank",
     "--absent": "--absent 2",
     "--rows": "--rows 1",
+    "--distance": "--distance 0.2",
+    "--ratio": "--ratio 1",
+    "--phase": "--phase 30",
+    "--lead": "--lead 12",
     "--strokes": "--strokes 4",
     "--shared-pins": "--shared-pins",
     "--body": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000",

@@ -805,7 +805,7 @@ class Builders(EngineData):
         >>> cylinder = cp.Cylinder(0.043, 0.145, 0.6)
         >>> twin = cp.Engine.u(cylinder, throws_deg=[0], spacing=0.1, distance=0.2)
         >>> abs(twin.balance(rpm=3000, orders=[1]).force).round(1)
-        array([[   0. , 5092.6]])
+        array([[   0. , 5092.7]])
         """
         one = cls.inline(
             cylinder, throws_deg=throws_deg, spacing=spacing, rotating_mass=rotating_mass,

@@ -220,9 +220,8 @@ class PointMotion(Labelled):
 def _require_subframe(powertrain: Powertrain, name: str) -> None:
     """Raise an error where no subframe carries the mounts."""
     if not isinstance(powertrain.support, Subframe):
-        raise AbsentError(
-            f"{name}: no subframe carries the mounts; give one, p.with_support(cp.Subframe(…))"
-        )
+        hint = "no subframe carries the mounts; give one, p.with_support(cp.Subframe(…))"
+        raise inputs.faulty(name, "is undefined", hint, AbsentError)
 
 
 class MountQuantities:
