@@ -17,8 +17,9 @@ const CONTROLS = ["crank_angle", "rpm", "rocking", "sound", "view"];
 const MOST_DRAWN = 64;
 
 /** Controls of a page that is saved, which has no form: those of the library's. */
-const savedControls = ({ bank_angle_deg: angle }) =>
-  ["crank_angle", "rpm", "rod_ratio", ...(angle === null ? [] : ["bank_angle"]), ...CONTROLS.slice(2)];
+const savedControls = ({ bank_angle_deg: angle, rod_ratios: ratios }) => [
+  "crank_angle", "rpm", ...(ratios ? ["rod_ratio"] : []), ...(angle === null ? [] : ["bank_angle"]),
+  ...CONTROLS.slice(2)];
 
 export class Slot {
   core;

@@ -112,6 +112,7 @@ def test_a_chamber_fires_once_midway_between_its_dead_centres() -> None:
     firing = engine.firing("1-3-2")
     assert firing.intervals_deg == pytest.approx([120.0] * 3)
     assert firing.angles_deg[:3] == pytest.approx([350.0, 230.0, 110.0])
+    assert gas(lead_deg=20).firing_deg == pytest.approx([350.0, 230.0, 110.0] * 2)
 
 
 @in_turn("lead", [0.0, 12.0, 40.0])
@@ -141,6 +142,25 @@ def test_torques_of_both_cranks_are_those_of_the_whole_engine() -> None:
     force = np.asarray(loads.crankpin)
     turning = (np.conj(pins) * (force[..., 0] + 1j * force[..., 1])).imag.sum(axis=0)
     assert np.asarray(torque) == pytest.approx(turning, rel=1e-9, abs=1e-6)
+
+
+def test_rods_are_swept_where_they_leave_chambers_as_they_are() -> None:
+    engine = gas(lead_deg=16)
+    orders = [1, 2, 3, 6]
+    swept = cp.sweep(engine, rpm=RPM, rod_ratio=[0.2, 0.4], orders=orders).crank_torque
+    for k, ratio in enumerate((0.2, 0.4)):
+        there = engine.replace(cylinder=CYLINDER.replace(rod_length=RADIUS / ratio))
+        expected = there.balance(RPM, orders=orders).crank_torque
+        # The rod's length is good to an ulp, and the ratio that is made of it.
+        assert np.asarray(swept)[k] == pytest.approx(np.asarray(expected), rel=1e-12, abs=1e-9)
+    unlike = gas(lead_deg=16, upper=CYLINDER.replace(crank_radius=0.04))
+    hint = "the chamber that cylinders 1 and 4 share is smallest elsewhere at each"
+    with pytest.raises(cp.InputError, match=rf"^rod_ratio = swept: {hint}"):
+        cp.sweep(unlike, rpm=RPM, rod_ratio=[0.2, 0.4])
+    with pytest.raises(cp.InputError, match=rf"^pin_offset = swept: {hint}"):
+        cp.sweep(engine, rpm=RPM, pin_offset=[0.0, 0.001])
+    # Without pressure nothing fires.
+    cp.sweep(unlike.with_cycle(None), rpm=RPM, rod_ratio=[0.2, 0.4], pin_offset=[0.0, 0.001])
 
 
 def test_what_has_no_meaning_is_rejected_by_name() -> None:

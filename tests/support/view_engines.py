@@ -46,15 +46,20 @@ def radial() -> cp.Engine:
 
 def square_four() -> cp.Engine:
     """Return four cylinders on two cranks that turn against each other."""
-    return cp.Engine.from_toml(
-        """
-        schema = 1
-        cranks = [{ x = 0.12, y = 0, ratio = -1 }]
-        placements = [
-          { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 180, bank_deg = 90, z = 0.1 },
-          { tdc_deg = 180, bank_deg = 90, z = 0, crank = 1 },
-          { tdc_deg = 0, bank_deg = 90, z = 0.1, crank = 1 },
-        ]
-        cylinder = { crank_radius = 0.025, rod_length = 0.1, reciprocating_mass = 0.25 }
-        """
-    )
+    return cp.Engine.square_four(cp.Cylinder(0.025, 0.1, 0.25), spacing=0.1, distance=0.12)
+
+
+def opposed_pistons(upper_radius: float = 0.05) -> cp.Engine:
+    """Return three bores with pressure, two pistons in each; one crank leads by 12°."""
+    lower, upper = (cp.Cylinder(radius, 0.2, 1.2, bore=0.09) for radius in (0.05, upper_radius))
+    cycle = cp.Cycle.wiebe(lower, compression_ratio=14, heat=900, start_deg=-8, strokes=2)
+    return cp.Engine.opposed_pistons(
+        lower,
+        upper=upper,
+        throws_deg=[0, 120, 240],
+        spacing=0.15,
+        distance=0.9,
+        lead_deg=12,
+        ratio=-1,
+        firing_order="1-3-2",
+    ).with_cycle(cycle)

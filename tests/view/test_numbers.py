@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from support.chromium import Open, values
 from support.several_cranks import fired_engine, random_engine
-from support.view_engines import everything, radial
+from support.view_engines import everything, opposed_pistons, radial
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,6 +36,8 @@ ENGINES = {
     },
     "everything": everything(),
     "radial": radial(),
+    "opposed pistons": opposed_pistons(),
+    "unlike opposed pistons": opposed_pistons(0.06),
     "at halves of crank speed": cp.Engine.preset("i4").with_shafts(
         [
             cp.Shaft("1/2", [cp.Unbalance(0.02, 0.1, 30)], x=0.1, y=0.2),
@@ -143,13 +145,13 @@ def test_yokes_and_dummy_pistons_turn(open_engine: Open) -> None:
 
 
 def test_pistons_of_one_chamber_fire_once(open_engine: Open) -> None:
-    engine = cp.Engine.opposed_pistons(
-        cp.Cylinder(0.05, 0.2, 1.2), throws_deg=[0, 120, 240], spacing=0.15, distance=0.9,
-        lead_deg=12, firing_order="1-3-2",
-    )  # fmt: skip
-    page = open_engine(engine)
+    page = open_engine(opposed_pistons())
     assert page.locator("[data-name=firing-order]").text_content() == "1-3-2"
     assert page.locator("[data-name=firing-intervals]").text_content() == "(every 120°)"
+    assert page.evaluate("crankpin.sound.banks().map(({ angles }) => angles.length)") == [3, 0]
+    assert page.locator("[data-name=rod-ratio]").count() == 1
+    # Other rods would move where the chambers of unlike pistons are smallest.
+    assert open_engine(opposed_pistons(0.06)).locator("[data-name=rod-ratio]").count() == 0
 
 
 @pytest.mark.parametrize("name", ["v6-60", "vr6", "v8-crossplane", "boxer-6", "everything"])
@@ -165,9 +167,12 @@ def test_any_setting(open_engine: Open, name: str) -> None:
         assert_agree(page, moved(engine, bank_angle, hold, ratio), rpm, 97.25)
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.31, 0.55, 0.7])
-def test_any_rod_ratio(open_engine: Open, ratio: float) -> None:
-    engine = ENGINES["i4"]
+@pytest.mark.parametrize(
+    ("name", "ratio"),
+    [*(("i4", ratio) for ratio in (0.05, 0.31, 0.55, 0.7)), ("opposed pistons", 0.45)],
+)
+def test_any_rod_ratio(open_engine: Open, name: str, ratio: float) -> None:
+    engine = ENGINES[name]
     page = open_engine(engine)
     page.locator("[data-name=rod-ratio]").fill(f"{ratio}")
     page.get_by_label("crank angle").fill("181.5")

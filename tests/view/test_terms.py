@@ -67,8 +67,8 @@ def numbers(
 
 def all_settings(engine: cp.Engine, rpm: float) -> list[Settings]:
     """Return the engine's own settings and others: both ends of the rod ratios, banks turned."""
-    own, (least, most, _) = Settings.of(engine, rpm), _core.rod_ratios(engine._core)
-    rods = [least, 0.237, most]
+    own, (reached, _) = Settings.of(engine, rpm), _core.rod_ratios(engine._core)
+    rods = [] if reached is None else [reached[0], 0.237, reached[1]]
     bank = own.bank_angle_deg
     settings = [own, *(Settings(0.3 * rpm, bank, rod) for rod in rods)]
     if bank is not None:

@@ -261,7 +261,8 @@ class EngineData:
     def firing_deg(self) -> NDArray[np.float64]:
         """Crank angles of the firing top dead centres, degrees: (n_cylinders,).
 
-        In [0, 720) for a four-stroke, [0, 360) for a two-stroke; undefined without cycles.
+        Of pistons that share a chamber those at which it is smallest. In [0, 720) for a
+        four-stroke, [0, 360) for a two-stroke; undefined without cycles.
         """
         angles = self._core.firing_deg
         if angles is None:

@@ -60,15 +60,21 @@ class Settings:
         return cls(
             rpm=inputs.number("rpm", rpm),
             bank_angle_deg=_bank_angle(engine),
-            rod_ratio=_core.rod_ratios(engine_core(engine))[2],
+            rod_ratio=_core.rod_ratios(engine_core(engine))[1],
         )
 
     def check(self, engine: Engine) -> None:
         """Raise an InputError if the engine does not allow these settings."""
         inputs.angular_speed(self.rpm)
         self.applied(engine)
-        least, most, _ = _core.rod_ratios(engine_core(engine))
-        if self.rod_ratio is not None and not least <= self.rod_ratio <= most:
+        reached, own = _core.rod_ratios(engine_core(engine))
+        if self.rod_ratio in (None, own):
+            return
+        if reached is None:
+            hint = "other rods would fire pistons that share a chamber elsewhere; leave it out"
+            raise inputs.rejected("rod_ratio", self.rod_ratio, hint)
+        least, most = reached
+        if not least <= self.rod_ratio <= most:
             hint = f"a page reaches {least:.6g} to {most:.6g}"
             raise inputs.rejected("rod_ratio", self.rod_ratio, hint)
 
@@ -207,6 +213,7 @@ def _controls(engine: Engine, controls: Controls, *, compact: bool) -> list[str]
     """
     vee = _bank_angle(engine) is not None
     has = {
+        "rod_ratio": _core.rod_ratios(engine_core(engine))[0] is not None,
         "bank_angle": vee, "rocking": not compact, "sound": not compact and engine.firing_order,
     }  # fmt: skip
     known = [name for name in CONTROLS if has.get(name, True)]

@@ -72,6 +72,13 @@ proptest! {
                 let size = one[k].norm() + other[k].norm() + 1e3;
                 prop_assert!((both[k] - expected).norm() < ROUNDING * size);
             }
+            // About the main crank, with the lever of the other one's axis.
+            let [both, first, second] = [&whole, &first, &second]
+                .map(|wave| wave.torque.as_ref().map_or(f64::NAN, |torque| torque[i]));
+            let force = other[0] * tilt.cis(1);
+            let lever = axis[0] * force.im - axis[1] * force.re;
+            let size = first.abs() + second.abs() + lever.abs() + other[0].norm() + 1e3;
+            prop_assert!((both - first - second - lever).abs() < ROUNDING * size);
         }
     }
 
@@ -216,6 +223,14 @@ fn what_a_shared_chamber_cannot_do_is_named() {
     };
     assert!(error(120.0, vec![false; 2]).contains("at most 90° apart; these are 120°"));
     assert!(error(20.0, vec![false, true]).contains("fires once"));
+    // Pistons that fire apart, until their cranks stand opposite.
+    let beside = opposed(20.0, 1, usual, usual, Strokes::Four);
+    let own = beside.cranks().iter().copied().collect::<Vec<_>>();
+    let away = Crank { axis: [0.0, -0.9], ..own[1] };
+    let away = beside.with_cranks(vec![own[0], away], vec![0, 1]).unwrap();
+    let fired = away.fired_by(cycle(4), vec![false, true]).unwrap();
+    let error = fired.with_cranks(own, vec![0, 1]).unwrap_err().to_string();
+    assert!(error.contains("fires once"), "{error}");
     let engine = opposed(20.0, 1, usual, usual, Strokes::Two);
     assert_eq!(engine.shared_chambers().len(), 1);
     let order = "1-2".parse().unwrap();

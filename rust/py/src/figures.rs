@@ -12,12 +12,13 @@ use crate::convert::{OrRaise, OrderNumber, Parts, cylinder, numbers};
 use crate::engine::Engine;
 use crate::interrupt;
 
-/// Rod ratios that a page reaches: the least, the largest, and the engine's own, of all cylinders.
+/// Rod ratios that a page reaches, the least and the largest, if it does others than the engine's own, of all
+/// cylinders.
 #[guarded]
 #[pyfunction]
-pub fn rod_ratios(engine: &Engine) -> (f64, f64, Option<f64>) {
-    let RodRatios { least, most, common, .. } = RodRatios::of(&engine.0);
-    (least, most, common)
+pub fn rod_ratios(engine: &Engine) -> (Option<(f64, f64)>, Option<f64>) {
+    let reached = RodRatios::reached(&engine.0).map(|ratios| (ratios.least, ratios.most));
+    (reached, RodRatios::of(&engine.0).common)
 }
 
 /// Length of a rod in pictures, m.
@@ -32,8 +33,8 @@ pub fn drawn_rod(parts: Parts) -> PyResult<f64> {
 #[pyfunction]
 pub fn drawn(engine: &Bound<'_, Engine>) -> PyResult<String> {
     let core = &engine.get().0;
-    let ratios = RodRatios::of(core);
-    let drawn = interrupt::run(engine.py(), |cancel| Drawing::new(core, Some(ratios), cancel))?;
+    let ratios = RodRatios::reached(core);
+    let drawn = interrupt::run(engine.py(), |cancel| Drawing::new(core, ratios, cancel))?;
     Ok(json!(drawn).to_string())
 }
 
@@ -47,9 +48,8 @@ pub fn drawn_turning(
     rpm: f64,
 ) -> PyResult<String> {
     let core = engine.get().with_spectrum(spectrum)?;
-    let ratios = RodRatios::of(&core);
-    let drawn =
-        interrupt::run(engine.py(), |cancel| drawing::turning(&core, Some(ratios), rpm, cancel))?;
+    let ratios = RodRatios::reached(&core);
+    let drawn = interrupt::run(engine.py(), |cancel| drawing::turning(&core, ratios, rpm, cancel))?;
     Ok(drawn.to_string())
 }
 

@@ -18,7 +18,7 @@ pub fn figures(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let rpm: f64 = arguments.required("rpm")?;
     crankpin_core::balance::angular_speed(rpm)?;
     let inertia: Option<f64> = arguments.optional("inertia")?;
-    let ratios = arguments.or("rod_ratios", false)?.then(|| RodRatios::of(&engine));
+    let ratios = arguments.or("rod_ratios", false)?.then(|| RodRatios::reached(&engine)).flatten();
     let loads = engine.loads_counted();
     let loads: String =
         loads.chars().take(1).flat_map(char::to_uppercase).chain(loads.chars().skip(1)).collect();

@@ -16,9 +16,9 @@ const SLOWEST_HEARD = 6;
 /** Of each bank its side, from −1 at the left to 1, and the crank angles at which its exhausts open, in order. */
 export function openings({ cylinders, cycle }, before) {
   const banks = [];
-  for (const { bank, direction: [side], strokes } of cylinders) {
+  for (const { bank, direction: [side], strokes, number, fires_as: as } of cylinders) {
     banks[bank] ??= { side, angles: [] };
-    if (!strokes) continue; // a dummy piston
+    if (!strokes || number !== as) continue; // a dummy piston, or the second of a chamber
     // It opens at the end of the power stroke, a little before.
     banks[bank].angles.push(reduced(strokes[0][2] - before, cycle));
   }

@@ -96,12 +96,15 @@ pub(super) fn real_column(phasors: &[Complex64]) -> DVector<f64> {
 
 impl PhasorsAtPoint<'_> {
     fn least(&self, request: &PhasorRequest) -> Vec<Complex64> {
-        let values = SingularValues::of(&self.effect).values;
-        let Some(largest) = values.first().filter(|_| self.target.amax() > 0.0) else {
+        let mut values = SingularValues::of(&self.effect);
+        let Some(&largest) = values.values.first().filter(|_| self.target.amax() > 0.0) else {
             return vec![Complex64::ZERO; self.bounds.len()];
         };
         let (effect, target) = self.with_effort(request.effort.sqrt() * largest);
-        let (all, values) = (0..target.len(), SingularValues::of(&effect));
+        if request.effort != 0.0 {
+            values = SingularValues::of(&effect);
+        }
+        let all = 0..target.len();
         let mut found = values.solve(&DMatrix::from_columns(&[-&target]), values.rank(SAME_EFFECT));
         let mut found: DVector<f64> = found.column_mut(0).into_owned();
         let is_over = |(k, bound): (usize, &f64)| found.fixed_rows::<2>(2 * k).norm() > *bound;

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use super::layout::Strokes;
-use super::{Engine, check_each_cylinder};
+use super::{Engine, Gas};
 use crate::Complex64;
 use crate::mechanism::motion::CrankPosition;
 use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::error::{Error, Result};
-use crate::pressure::Cycle;
 
 /// Distances below this part of that between two axes are rounding.
 const FACING_TOLERANCE: f64 = 1e-9;
@@ -55,6 +54,30 @@ impl Engine {
     #[must_use]
     pub fn fires_as(&self, cylinder: usize) -> usize {
         self.shared_chamber(cylinder).map_or(cylinder, |(chamber, _)| chamber.pistons[0])
+    }
+
+    /// Whether a chamber is smallest elsewhere with rods of another length: where its pistons are unlike, or offset.
+    #[must_use]
+    pub fn rods_time_chambers(&self) -> bool {
+        self.shared_chambers().iter().any(|chamber| chamber.delays[0] != -chamber.delays[1])
+    }
+
+    /// Rejects another rod ratio, or pin offset, where pressure acts in chambers that are smallest elsewhere then.
+    pub(crate) fn check_chambers_keep(&self, changed: &'static str) -> Result<()> {
+        let fires = |chamber: &SharedChamber| self.cycle_of(chamber.pistons[0]).is_some();
+        let is_moved = changed == "pin_offset" || self.rods_time_chambers();
+        match self.shared_chambers().iter().find(|chamber| is_moved && fires(chamber)) {
+            None => Ok(()),
+            Some(&SharedChamber { pistons: [one, other], .. }) => {
+                let hint = format!(
+                    "the chamber that cylinders {} and {} share is smallest elsewhere at each; give an engine for \
+                     each, or one without pressure",
+                    one + 1,
+                    other + 1
+                );
+                Err(Error::value(changed, "swept", hint))
+            }
+        }
     }
 
     /// The chamber that a piston shares, and its place there.
@@ -141,21 +164,15 @@ impl Engine {
     }
 
     /// Rejects pressure of shared chambers that is not one cycle's, or that fires twice in it.
-    pub(super) fn check_shared_pressure(
-        &self,
-        cycle_of: &[Option<usize>],
-        later: &[bool],
-    ) -> Result<()> {
-        check_each_cylinder("cycle", cycle_of.len(), self.stations.len())?;
-        check_each_cylinder("later", later.len(), self.stations.len())?;
-        for SharedChamber { pistons: [one, other], delays } in self.shared_chambers().iter() {
+    pub(super) fn check_shared_pressure(&self, gas: &Gas) -> Result<()> {
+        for &SharedChamber { pistons: [one, other], delays } in self.shared_chambers().iter() {
             let named =
                 format!("cylinders {} and {} are the two ends of one chamber", one + 1, other + 1);
-            if cycle_of[*one] != cycle_of[*other] {
+            if gas.cycle_of[one] != gas.cycle_of[other] {
                 let hint = format!("{named}: give both the same cycle, or none");
                 return Err(Error::value(format!("cycle[{other}]"), "another one", hint));
             }
-            if cycle_of[*one].is_none() {
+            if gas.cycle_of[one].is_none() {
                 continue;
             }
             let lead = (delays[0] - delays[1]).degrees().abs();
@@ -165,20 +182,14 @@ impl Engine {
                 );
                 return Err(Error::value("cycle", "given", hint));
             }
-            let fires = |i: usize, delay: Angle| {
-                self.stations[i].tdc + Angle::whole_turns(later[i].into()) + delay
-            };
-            let apart = (fires(*one, delays[0]) - fires(*other, delays[1])).reduced_to(2).degrees();
-            if self.strokes == Strokes::Four && (apart - 360.0).abs() < 180.0 {
+            let apart = self.firing_phase(one) - self.firing_phase(other);
+            if self.strokes == Strokes::Four
+                && (apart.reduced_to(2).degrees() - 360.0).abs() < 180.0
+            {
                 let hint = format!("{named}, which fires once: in one turn of the cycle");
-                return Err(Error::value(format!("later[{other}]"), later[*other], hint));
+                return Err(Error::value(format!("later[{other}]"), gas.later[other], hint));
             }
         }
         Ok(())
-    }
-
-    /// The cycle of a cylinder as its piston meets it: later by how much later a shared chamber is smallest.
-    pub(super) fn cycle_met(&self, cylinder: usize, cycle: &Arc<Cycle>) -> Arc<Cycle> {
-        cycle.delayed(self.chamber_delay(cylinder).unwrap_or(Angle::ZERO))
     }
 }

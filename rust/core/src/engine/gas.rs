@@ -35,7 +35,8 @@ impl Engine {
     ///
     /// [`crate::Firing::fires_in_second_turn`] is what an engine's firing order says.
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
-        self.check_shared_pressure(&gas.cycle_of, &gas.later)?;
+        check_each_cylinder("cycle", gas.cycle_of.len(), self.stations.len())?;
+        check_each_cylinder("later", gas.later.len(), self.stations.len())?;
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
@@ -71,12 +72,11 @@ impl Engine {
         self.gas.as_ref()?.cycle_of[cylinder]
     }
 
-    /// Cycle of a cylinder, from its piston's top dead centre on, and absolute pressure in the crankcase, Pa, where
-    /// pressure counts.
+    /// Cycle of a cylinder, from its firing on, and absolute pressure in the crankcase, Pa, where pressure counts.
     #[must_use]
     pub fn pressure_of(&self, cylinder: usize) -> Option<(Arc<Cycle>, f64)> {
         let (gas, cycle) = (self.gas.as_ref()?, self.cycle_of(cylinder)?);
-        Some((self.cycle_met(cylinder, &gas.cycles[cycle]), gas.crankcase))
+        Some((Arc::clone(&gas.cycles[cycle]), gas.crankcase))
     }
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, where that is
@@ -101,9 +101,17 @@ impl Engine {
         self.turns.as_deref()
     }
 
-    /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
+    /// Crank angle at which a cylinder's cycle begins: its firing top dead centre, within a cycle, and so much later
+    /// as a chamber is smallest that it shares.
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {
+        let tdc = self.firing_tdc(cylinder);
+        let begins = |delay| (tdc + delay).reduced_to(self.strokes.turns());
+        self.chamber_delay(cylinder).map_or(tdc, begins)
+    }
+
+    /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
+    pub(crate) fn firing_tdc(&self, cylinder: usize) -> Angle {
         let later = self.gas.as_ref().is_some_and(|gas| gas.later[cylinder]);
         self.stations[cylinder].tdc + Angle::whole_turns(i32::from(later))
     }
@@ -148,6 +156,7 @@ impl Engine {
             }
             self.check_cycle_is_of_main_crank(i, "gas pressure counts")?;
         }
+        self.check_shared_pressure(gas)?;
         Ok(self)
     }
 

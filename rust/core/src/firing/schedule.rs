@@ -170,11 +170,15 @@ impl Firing {
         (0..stations.len()).map(second).collect()
     }
 
-    /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
+    /// Crank angle at which the cycle of each cylinder begins, by number: its firing top dead centre, within a cycle,
+    /// and so much later as a chamber is smallest that it shares.
     #[must_use]
     pub fn phases(&self) -> Vec<Angle> {
-        let places = self.engine.stations().iter().zip(self.fires_in_second_turn());
-        places.map(|(place, second)| place.tdc.reduced() + turn_if(second)).collect()
+        let phase = |(i, second): (usize, bool)| {
+            let tdc = self.engine.stations()[i].tdc.reduced() + turn_if(second);
+            self.engine.chamber_delay(i).map_or(tdc, |delay| self.within(tdc + delay))
+        };
+        self.fires_in_second_turn().into_iter().enumerate().map(phase).collect()
     }
 
     /// True if all intervals are equal.

@@ -129,10 +129,11 @@ impl Scene {
                 pressure.zip(engine.swept_by_radius(i))
             {
                 let delay = engine.chamber_delay(i).unwrap_or(Angle::ZERO);
+                let cycle = cycle.delayed(delay);
                 let gas = GasPressure { driven: driven(i), cycle, place, delay, crankcase };
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
-                    place.phase = engine.firing_phase(i).half();
+                    place.phase = engine.firing_tdc(i).half();
                 }
                 loads.push(place, gas, 0.0, roll);
             }

@@ -42,6 +42,12 @@ pub struct RodRatios {
 }
 
 impl RodRatios {
+    /// Those of an engine; none but its own where others would fire its chambers at other crank angles.
+    #[must_use]
+    pub fn reached(engine: &Engine) -> Option<Self> {
+        (!engine.rods_time_chambers()).then(|| Self::of(engine))
+    }
+
     /// Those of an engine, whose own is among them.
     #[must_use]
     pub fn of(engine: &Engine) -> Self {
@@ -63,7 +69,8 @@ impl RodRatios {
     fn points(&self, count: usize) -> Vec<(f64, f64)> {
         // The tangent of half an angle of this sine, and the sine.
         let [low, high] = [self.least, self.most].map(|ratio| ratio / self.turning);
-        let [low, high] = [low, high].map(|sine| sine / (1.0 + (1.0 - sine * sine).sqrt()));
+        let [low, high] =
+            [low, high].map(|sine| sine / (1.0 + ((1.0 - sine) * (1.0 + sine)).sqrt()));
         let point = |k: usize| {
             let q = low + 0.5 * (high - low) * (1.0 + chebyshev_angle(k, count).cos());
             let ratio = self.turning * 2.0 * q / (1.0 + q * q);

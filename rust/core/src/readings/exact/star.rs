@@ -77,10 +77,8 @@ impl Stars {
     /// Of a way to fire, with a weight for each cylinder.
     pub fn of_firing(firing: &Firing, weights: Vec<f64>, cancel: &Cancel) -> Result<Self> {
         let (groups, engine) = (vec![(0, false); weights.len()], firing.engine());
-        let phase = |(i, phase)| phase + engine.chamber_delay(i).unwrap_or(Angle::ZERO);
-        let phases = firing.phases().into_iter().enumerate().map(phase).collect();
         let fires = (0..weights.len()).map(|i| engine.fires(i) && engine.fires_as(i) == i);
-        Self::new(phases, weights, groups, fires.collect(), cancel)
+        Self::new(firing.phases(), weights, groups, fires.collect(), cancel)
     }
 
     /// Of the roll torque of the gas of an engine, as it fires if it has no cycles: alike are cylinders of

@@ -77,6 +77,7 @@ impl SweepAxes {
                 let hint = "a spectrum replaces the slider-crank: leave out one of the two";
                 return Err(Error::value(name, "swept together with a spectrum", hint));
             }
+            engines.iter().try_for_each(|engine| engine.check_chambers_keep(name))?;
         }
         Ok(())
     }
