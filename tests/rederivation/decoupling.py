@@ -42,3 +42,9 @@ def roll_frequency(mass: NDArray[np.float64], stiffness: NDArray[np.float64]) ->
     first = np.linalg.solve(mass, impulse)
     square = (first @ stiffness @ first) / (first @ mass @ first)
     return float(np.sqrt(square) / (2.0 * np.pi))
+
+
+def torque_in_one_mode(mass: NDArray[np.float64], stiffness: NDArray[np.float64]) -> float:
+    """Return the largest share of one mode in the work of an impulse about z, %."""
+    turns = eigh(stiffness, mass)[1][5]
+    return float(100.0 * np.max(turns**2) / np.sum(turns**2))

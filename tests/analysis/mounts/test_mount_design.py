@@ -55,6 +55,8 @@ def test_stiffnesses_that_decouple_roll_exactly() -> None:
     assert d.after[0] < 1e-8
     assert d.after[1] == pytest.approx(100.0)
     assert d.after[2] == pytest.approx(d.before[2], rel=1e-8)
+    # Shares of modes in coordinates of unit mass; second differences are right to 1e-8.
+    assert d.before[1] == pytest.approx(decoupling.torque_in_one_mode(*matrices(P)), rel=1e-6)
     mass, stiffness = matrices(d.fitted)
     # Second differences are right to the square of their step, 1e-8.
     assert decoupling.off_axis(mass, stiffness) < 1e-6
