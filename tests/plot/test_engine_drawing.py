@@ -206,6 +206,39 @@ def test_areas_of_the_star_are_proportional_to_unbalances() -> None:
     assert area(sectors[0]) / area(masses[0]) == pytest.approx(ratio, rel=0.02)
 
 
+def test_pistons_that_face_each_other_share_a_bore_without_heads() -> None:
+    cylinder = CYLINDER.replace(bore=0.08)
+    engine = cp.Engine.opposed_pistons(
+        cylinder, throws_deg=[0, 120, 240], spacing=0.1, distance=0.5, ratio=-1
+    )
+    ax = engine.plot(kind="section")
+    ax.figure.draw_without_rendering()
+    walls = [line for line in ax.lines if line.get_linewidth() == 1.2]
+    assert len(walls) == 4  # two sides, of the lower and of the upper half
+    for wall in walls:
+        x, y = wall.get_data()
+        assert x[0] == pytest.approx(x[1])
+        assert abs(x[0]) == pytest.approx(0.5 * 0.08)
+        assert 0.25 in np.round(y, 12)  # half way between the cranks
+    at = {text.get_text(): text.get_window_extent() for text in ax.texts}
+    left = ax.transData.transform((-0.5 * 0.08, 0.0))[0]
+    for numbers, (low, high) in {"1–3": (0.0, 0.25), "4–6": (0.25, 0.5)}.items():
+        (_, bottom), (_, top) = ax.transData.transform([(0.0, low), (0.0, high)])
+        assert at[numbers].x1 < left
+        assert bottom < at[numbers].y0 < at[numbers].y1 < top
+
+
+def test_arrows_are_away_from_bores_and_other_cranks() -> None:
+    pair = cp.Engine.u(CYLINDER, throws_deg=[0, 180], spacing=0.1, distance=0.13)
+    opposed = cp.Engine.opposed_pistons(CYLINDER, throws_deg=[0], spacing=0.1, distance=0.5)
+    for engine, sides in ((pair, [-1 - 1j, 1 - 1j]), (opposed, [1 - 1j, 1 + 1j])):
+        ax = engine.plot(kind="section")
+        tips = [complex(*text.xy) for text in ax.texts if text.arrow_patch is not None]
+        cranks = [complex(*crank[:2]) for crank in engine._core.cranks[0]]
+        aside = [tip - crank for tip, crank in zip(tips, cranks, strict=True)]
+        assert [np.sign(a.real) + 1j * np.sign(a.imag) for a in aside] == sides
+
+
 def test_the_side_view_has_counterweights_and_shafts_at_their_places() -> None:
     ax = FITTED.plot(kind="side", theta_deg=0)
     plates = outlines(ax, WEIGHTS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import time
@@ -16,7 +17,7 @@ from crankpin.view.page import WEB
 from support import in_turn
 from support.chromium import Open, values
 from support.engines import CYLINDER
-from support.view_engines import everything, radial, square_four
+from support.view_engines import everything, opposed_pistons, radial, square_four
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -695,6 +696,55 @@ def test_each_crank_is_drawn_with_its_sense(open_engine: Open) -> None:
             "found => found.map(each => each.getAttribute('points'))",
         )
         assert len(journals) == 6  # between two throws, and at both ends, of each crank
+
+
+BOXES = """found => found.filter((each) => !each.hasAttribute("hidden"))
+    .map((each) => each.getBoundingClientRect())
+    .map(({ left, top, right, bottom }) => [left, top, right, bottom])"""
+"""Left, top, right and bottom of what is not hidden."""
+
+
+def test_pistons_that_face_each_other_share_a_bore(open_engine: Open) -> None:
+    page = open_engine(opposed_pistons())
+    for frame in (".cross", ".left", ".isometric, .oblique"):
+        assert len(page.eval_on_selector_all(f".scene:is({frame}) .bore", BOXES)) == 3
+    bores = page.eval_on_selector_all(".scene.cross .bore", BOXES)
+    numbers = page.eval_on_selector_all(".bore-numbers", BOXES)
+    assert len(numbers) == 2
+    for number, bore in itertools.product(numbers, bores):
+        assert number[2] < bore[0]  # beside it
+        assert bore[1] < number[1] < number[3] < bore[3]
+    upper, lower = sorted(numbers, key=lambda number: number[1])
+    assert upper[3] < lower[1]
+
+
+def h_sixteen() -> cp.Engine:
+    layout = {"throws_deg": [0, 180, 180, 0], "spacing": 0.1, "distance": 0.2}
+    return cp.Engine.h(CYLINDER, **layout, phase_deg=90)  # type: ignore[arg-type]
+
+
+def test_numbers_of_bores_are_within_the_picture(open_engine: Open) -> None:
+    page = open_engine(h_sixteen())
+    ((left, _, right, _),) = page.eval_on_selector_all(".scene.cross", BOXES)
+    numbers = page.eval_on_selector_all(".bore-numbers", BOXES)
+    assert len(numbers) == 4
+    for number in numbers:
+        assert left <= number[0] < number[2] <= right
+
+
+def test_an_upper_crank_has_its_pistons_above_the_lower_one_s(open_engine: Open) -> None:
+    page = open_engine(h_sixteen())
+    drawn = page.eval_on_selector_all(
+        ".scene.above .piston text", "found => found.map((each) => +each.textContent)"
+    )
+    assert max(map(drawn.index, range(1, 9))) < min(map(drawn.index, range(9, 17)))
+
+
+def test_arrows_of_two_cranks_stay_apart(open_engine: Open) -> None:
+    engine = cp.Engine.u(CYLINDER, throws_deg=[0, 180], spacing=0.1, distance=0.1)
+    arrows = open_engine(engine).eval_on_selector_all(".sense", BOXES)
+    (first, second) = sorted(arrows)
+    assert first[2] < second[0]
 
 
 @pytest.mark.parametrize("seed", range(3))

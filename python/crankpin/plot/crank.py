@@ -58,6 +58,8 @@ LINE_HEIGHT = 1.3
 """Height of a line of text over the size of its font."""
 AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
+APART = 2.6
+"""Distance of two stars, in what each needs on either side: numbers of pins need room between."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
 LOAD_MARKS = "crankpin loads"
@@ -107,7 +109,8 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
     reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + radius for radius in rounds)])
     limit = 1.25 * reach
-    centres = {crank: complex(2.0 * limit * k) for k, crank in enumerate(cranks)}
+    apart = APART * limit
+    centres = {crank: complex(apart * k) for k, crank in enumerate(cranks)}
     sectors = [
         *(
             disc(centres[crank] + largest * at, radius)
@@ -130,7 +133,8 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     faces = [ink.paper] * len(centres) + [ink.journal] * len(places)
     add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PIN_MARKS)
     # The layout may make the axes smaller yet.
-    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit * len(cranks))
+    width = 2.0 * limit + apart * (len(cranks) - 1)
+    scale = 0.8 * 72.0 * inches_of(ax) / width
     for crank, centre in centres.items():
         circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
         ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
@@ -142,7 +146,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
             text = plain_text(crank_text(engine, crank))
             write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
     ax.set_aspect("equal")
-    ax.set_xlim(-limit, limit + 2.0 * limit * (len(cranks) - 1))
+    ax.set_xlim(-limit, width - limit)
     ax.set_ylim(-limit if len(cranks) == 1 else -1.3 * limit, limit)
     ax.set_axis_off()
 

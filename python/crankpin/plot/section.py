@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +35,8 @@ from crankpin.plot.style import write
 from crankpin.plot.words import number, plain_text
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -64,24 +67,45 @@ def section(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None
 
 
 def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], ink: Inks) -> None:
-    """Draw each bore once, with its head and the numbers of its cylinders."""
+    """Draw each bore once, with its head and the numbers of its cylinders.
+
+    A bore in which pistons face each other is open at both ends; the numbers stand beside it.
+    """
     seen: dict[tuple[float, ...], list[int]] = {}
-    heads = at.highest + (CROWN + 0.04) * bores
+    lowest, heads = at.lowest - SKIRT * bores, at.highest + (CROWN + 0.04) * bores
+    middles = heads.copy()  # between the pistons, where they face each other
+    for k, distance in _opposed(engine, at):
+        middles[k] = lowest[k] + 0.5 * (distance - lowest[k].sum())
     for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
         place = (along.real, along.imag, foot.real, foot.imag, bores[k], heads[k])
         seen.setdefault(tuple(np.round(place, 9).tolist()), []).append(k)
     reached = [disc(axis, 1.8 * crank_radius(engine)) for axis in (0j, *at.axis.tolist())]
     for cylinders in seen.values():
         k = cylinders[0]
-        corners = box(at.foot[k], at.along[k], bores[k], at.lowest[k] - SKIRT * bores[k], heads[k])
-        ax.plot(corners.real, corners.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
-        axis = at.foot[k] + np.array([0.0, heads[k]]) * at.along[k]
+        is_open = middles[k] != heads[k]
+        corners = box(at.foot[k], at.along[k], bores[k], lowest[k], middles[k])
+        walls = corners.reshape(2, 2).T if is_open else corners
+        ax.plot(walls.real, walls.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
+        axis = at.foot[k] + np.array([0.0, middles[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
         numbers = listed([place + 1 for place in cylinders])
-        outside(ax, axis[1], numbers, complex(at.axis[k]))
+        if is_open:
+            side = corners[:2] if corners[0].real < corners[3].real else corners[2:]
+            outside(ax, complex(side.mean()), numbers, complex(axis.mean()))
+        else:
+            outside(ax, axis[1], numbers, complex(at.axis[k]))
         reached.append(corners)
     # Numbers need room beyond the heads.
     ax.update_datalim(points(1.06 * np.concatenate(reached)))
+
+
+def _opposed(engine: Engine, at: Geometry) -> Iterator[tuple[list[int], float]]:
+    """Yield pairs of cylinders whose pistons face each other in a bore, and between their feet."""
+    for k, m in itertools.combinations(range(len(engine)), 2):
+        between = (at.foot[m] - at.foot[k]) * at.along[k].conjugate()
+        apart = [engine.z[k] - engine.z[m], between.imag, abs(at.along[k] + at.along[m])]
+        if between.real > 0.0 and np.allclose(apart, 0.0, atol=1e-9):
+            yield [k, m], float(between.real)
 
 
 def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
@@ -102,12 +126,25 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
     journals = [disc(axis, 0.5 * width) for axis in axes]
     add(ax, journals, facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
     carrying = {weight.axis for weight in weights} | set(at.axis.tolist())
-    for x, y, ratio in engine._core.cranks[0]:
-        axis = complex(x, y)
+    cranks = [(complex(x, y), ratio) for x, y, ratio in engine._core.cranks[0]]
+    for axis, ratio in cranks:
         if axis in carrying or not axis:
-            arc = axis + 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
+            middle = _free(at, axis, [other for other, _ in cranks])
+            arc = axis + 1.7 * largest * direction(middle + np.linspace(-30.0, 30.0, 25))
             ax.plot(arc.real, arc.imag, color=ink.faint, linewidth=1.0, linestyle="-", zorder=2)
-            arrow_round(ax, 1.7 * largest, -15.0 if ratio > 0 else -75.0, ink, axis, ratio)
+            tip = middle + (30.0 if ratio > 0 else -30.0)
+            arrow_round(ax, 1.7 * largest, tip, ink, axis, ratio)
+
+
+def _free(at: Geometry, axis: complex, axes: list[complex]) -> float:
+    """Return the direction, degrees, in which there is room beside a crank.
+
+    Away from its bores, on the side that has no other crank.
+    """
+    bores = complex(at.along[at.axis == axis].sum())
+    away = -90.0 if abs(bores) < 1e-6 else float(np.degrees(np.angle(-bores)))
+    side = -1.0 if axis.real < np.mean(axes).real else 1.0
+    return max(away + 45.0, away - 45.0, key=lambda angle: side * np.cos(np.deg2rad(angle)))
 
 
 def _moving_parts(

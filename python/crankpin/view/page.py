@@ -32,6 +32,8 @@ END = re.compile(r"(?<=[{(\[,;])\n")
 """Ends of lines that a module does without."""
 SPACE = re.compile(r"(?<=[:,;{]) | (?=[{}])")
 """Spaces that a style sheet does without."""
+AROUND = re.compile(r"""^.*(?:[`']|\(/).*$|"(?:[^"\\\n]|\\.)*"| ?([,:;={}()?]) ?""", re.MULTILINE)
+"""A sign with spaces that a module does without; texts, and lines with texts of other marks."""
 
 
 def save_html(
@@ -112,8 +114,7 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments, indents,
-    most ends of lines and spaces around arrows are left out: no text goes over several lines, or
-    has an arrow.
+    most ends of lines and spaces are left out: no text goes over several lines, or has an arrow.
     """
     found: dict[str, str] = {}
 
@@ -124,6 +125,7 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
         for each in IMPORT.findall(text):
             visit(each)
         text = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
+        text = AROUND.sub(lambda match: match[1] or match[0], text)
         found[name] = END.sub("", text).replace(" => ", "=>")
 
     for entry in entries:

@@ -1,14 +1,17 @@
 // What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
 
-import { DEGREE, reduced } from "./complex.mjs";
+import { DEGREE, add, reduced, scale } from "./complex.mjs";
 import { centre, dragged, fixed, place, svg, translate } from "./dom.mjs";
-import { boreEnds, pinOf } from "./scene.mjs";
+import { BORE, boreEnds, opposedTo, pinOf } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
-const BORE_NUMBER = 9; // pixels beyond the head
+const BORE_NUMBER = 8; // pixels beyond the head
 const LINE = 12; // pixels
 const CLOSE = 24; // degrees between pins whose numbers would overlap
 const MOST_IN_LINE = 4;
+const DIGIT = 6.5; // pixels, and those between two numbers
+const SPACE = 3.5;
+const SENSE = 17; // degrees of half an arrow
 
 export class Handle {
   /** A drag begins at `angle()` and tells `turnTo` where it has come, in tenths of a degree. */
@@ -30,30 +33,42 @@ export class Handle {
     this.hit.setAttribute("r", 1.7 * reach);
     this.pins = pinNumbers(engine);
     const outside = PIN_NUMBER + LINE * (1.5 + Math.max(0, ...this.pins.map(({ level }) => level)));
-    this.senses.replaceChildren(...engine.cranks.flatMap(({ x, y, ratio }) => {
-      const [px, py] = projection.point([x, y, 0]);
+    this.senses.replaceChildren(...engine.cranks.flatMap((crank, k) => {
+      const [px, py] = projection.point([crank.x, crank.y, 0]);
       return [svg("circle", { class: "pin-circle", cx: px, cy: py, r: reach }),
-        svg("path", { class: "sense", d: senseArrow(px, py, reach + outside, Math.sign(ratio)) })];
+        svg("path", { class: "sense", d: senseArrow(px, py, reach + outside, free(engine, k), Math.sign(crank.ratio)) })];
     }));
     this.axes = engine.cylinders.map(({ axis }) => axis);
-    const bores = boreGroups(engine).map((group) => {
-      const [dx, dy] = group[0].direction;
-      const { axis } = boreEnds(group[0]);
-      const top = Math.max(...group.map((each) => boreEnds(each).top));
-      const [headX, headY] = projection.point([axis[0] + top * dx, axis[1] + top * dy, 0]);
-      const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
-      const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
-      const [x, y] = [headX + BORE_NUMBER * dx, headY - BORE_NUMBER * dy + 4];
-      const lines = Math.ceil(group.length / MOST_IN_LINE);
-      for (let k = 0; k < lines; k++) {
-        const part = group.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
-        const line = svg("tspan", {}, ...listed(part));
-        place(line, [x, y - (lines - 1 - k) * LINE]);
-        text.append(line);
-      }
-      return text;
-    });
+    const bores = boreGroups(engine).map((group) => this.boreNumbers(group, engine));
     this.numbers.replaceChildren(...bores, ...this.pins.map(({ text }) => text));
+  }
+
+  /** Numbers of the cylinders of a bore beyond its head, or beside it where two pistons face each other. */
+  boreNumbers(group, { cylinders }) {
+    const { projection, size: [width] } = this.scene;
+    const [{ direction, crank_radius: r }] = group;
+    const opposed = opposedTo(group[0], cylinders);
+    const { axis, low, top } = boreEnds(group[0]);
+    const along = opposed ? 0.5 * (low + top) : Math.max(...group.map((each) => boreEnds(each).top));
+    const left = direction[1] > 0 ? 1 : -1;
+    const towards = opposed ? [-left * direction[1], left * direction[0]] : direction;
+    const from = add(axis, add(scale(direction, along), scale(towards, opposed ? (BORE / 2) * r : 0)));
+    const [px, py] = projection.point([...from, 0]);
+    const [dx, dy] = towards;
+    const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
+    const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
+    const [x, y] = [px + BORE_NUMBER * dx, py - BORE_NUMBER * dy + 4];
+    const room = anchor === "middle" ? Infinity : dx > 0 ? width - x : x;
+    const digits = Math.max(...group.map(({ number }) => `${number}`.length));
+    const inLine = Math.min(MOST_IN_LINE, Math.max(1, Math.floor((room + SPACE) / (DIGIT * digits + SPACE))));
+    const lines = Math.ceil(group.length / inLine);
+    for (let k = 0; k < lines; k++) {
+      const line = svg("tspan", {}, ...listed(group.slice(k * inLine, (k + 1) * inLine)));
+      // Above the head, below that of a hanging bore, and beside one that lies.
+      place(line, [x, y + (k - 0.5 * (lines - 1) * (1 + dy)) * LINE]);
+      text.append(line);
+    }
+    return text;
   }
 
   pose({ cylinders }) {
@@ -123,12 +138,22 @@ function listed(group) {
   ]);
 }
 
-/** An arc with a head, counter-clockwise; clockwise, its image in the mirror, with a sense of −1. */
-function senseArrow(cx, cy, r, sense) {
-  const at = (degrees, by = 0) => {
-    const angle = degrees * DEGREE;
-    return [cx + sense * (r + by) * Math.cos(angle), cy - (r + by) * Math.sin(angle)]
+/** Degrees at which there is room beside a crank: away from its bores, on the side that has no other crank. */
+function free({ cranks, cylinders }, crank) {
+  const [x, y] = cylinders.filter((each) => each.crank === crank).reduce((sum, { direction }) => add(sum, direction), [0, 0]);
+  const away = Math.hypot(x, y) < 1e-6 ? -90 : Math.atan2(-y, -x) / DEGREE;
+  const middle = cranks.reduce((sum, each) => sum + each.x / cranks.length, 0);
+  const side = cranks[crank].x < middle ? -1 : 1;
+  return [away + 45, away - 45].sort((a, b) => side * (Math.cos(b * DEGREE) - Math.cos(a * DEGREE)))[0];
+}
+
+/** An arc about degrees with a head, counter-clockwise with a sense of 1. */
+function senseArrow(cx, cy, r, degrees, sense) {
+  const at = (by, out = 0) => {
+    const angle = (degrees + sense * by) * DEGREE;
+    return [cx + (r + out) * Math.cos(angle), cy - (r + out) * Math.sin(angle)]
       .map((part) => part.toFixed(2)).join(" ");
   };
-  return `M${at(-62)}A${r} ${r} 0 0 ${sense > 0 ? 0 : 1} ${at(-28)}M${at(-38, -5)}L${at(-28)}L${at(-37, 5)}`;
+  return `M${at(-SENSE)}A${r} ${r} 0 0 ${sense > 0 ? 0 : 1} ${at(SENSE)}`
+    + `M${at(SENSE - 10, -5)}L${at(SENSE)}L${at(SENSE - 9, 5)}`;
 }

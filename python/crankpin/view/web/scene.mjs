@@ -6,7 +6,7 @@ import { Projection, hull } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
 
 // What inertia does not depend on, in crank radii: chosen to look like an engine.
-const BORE = 1.7;
+export const BORE = 1.7;
 const CROWN = 0.8; // above the piston pin
 const SKIRT = 0.6; // below it
 const BAND = 0.28; // of the crown, coloured by the stroke
@@ -118,7 +118,10 @@ export class Scene {
       layout: ({ cylinders }) => {
         const { crank_radius: r, direction } = cylinders[k];
         z = cylinders[k].z;
-        ends = boreEnds(cylinders[k]);
+        const opposed = opposedTo(cylinders[k], cylinders);
+        ends = boreEnds(cylinders[k], opposed);
+        // Pistons that face each other have one bore.
+        element.toggleAttribute("hidden", opposed?.number < cylinders[k].number);
         const places = this.projection.tube(direction, ends.low, ends.top, (BORE / 2) * r);
         element.setAttribute("d", path(places, true));
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, ends.low)), z]);
@@ -152,7 +155,7 @@ export class Scene {
           place(number, shape.middle);
           number.setAttribute("font-size", Math.min(Math.max(0.8 * r * projection.scale, 7), 15));
         }
-        return projection.depth([...direction.map((part) => part * l), z]);
+        return projection.depth([...add(cylinders[k].axis, scale(direction, l)), z]);
       },
       pose: (pose, strokes, motion) => {
         this.put(element, pose.cylinders[k].wrist, z, motion);
@@ -172,13 +175,15 @@ export class Scene {
       const radius = (BORE / 2) * r;
       const outline = (from, to) => path(projection.tube(direction, from * r, to * r, radius), true);
       const [cx, cy] = projection.vector([...direction.map((part) => part * CROWN * r), 0]);
-      const facing = projection.depth([...direction, 0]) > 0;
+      const depth = projection.depth([...direction, 0]);
+      const facing = depth > 0;
       const crown = projection.ellipse(direction, radius).arc(0, 2 * Math.PI, 28);
       this.shapes.set(key, {
         body: outline(-SKIRT, CROWN),
         band: outline(CROWN - BAND, CROWN),
         crown: facing ? path(crown.map(([x, y]) => [x + cx, y + cy]), true) : "",
-        middle: facing ? [cx, cy] : [0, 0],
+        // Of pistons seen from below the rod covers the pin.
+        middle: facing ? [cx, cy] : depth > -ONE_PLACE ? [0, 0] : [0.5 * cx, 0.5 * cy],
       });
     }
     return this.shapes.get(key);
@@ -341,14 +346,25 @@ function dimensions(engine) {
   return { radius, places, stretch, halfThrow, ends, largestWeight };
 }
 
-/** Lower end and head of a bore, and where its axis passes its crank's. */
-export function boreEnds(cylinder) {
+/** Lower end and head of a bore, and where its axis passes its crank's; without a head where a piston is `opposed`. */
+export function boreEnds(cylinder, opposed = null) {
   const { crank_radius: r, shift, direction: [dx, dy], extremes: [highest, lowest] } = cylinder;
-  return {
-    low: Math.max(lowest - SKIRT * r, 1.1 * r),
-    top: highest + (CROWN + HEAD) * r,
-    axis: add(cylinder.axis, [-shift * dy, shift * dx]),
-  };
+  const axis = add(cylinder.axis, [-shift * dy, shift * dx]);
+  const low = Math.max(lowest - SKIRT * r, 1.1 * r);
+  if (!opposed) return { low, top: highest + (CROWN + HEAD) * r, axis };
+  const other = boreEnds(opposed);
+  return { low, top: Math.hypot(axis[0] - other.axis[0], axis[1] - other.axis[1]) - other.low, axis };
+}
+
+/** The cylinder whose piston faces that of another in its bore, from a crank at the other end. */
+export function opposedTo(cylinder, cylinders) {
+  const { direction: [dx, dy], crank_radius: r, z } = cylinder;
+  return cylinders.find((other) => {
+    const [ax, ay] = add(boreEnds(other).axis, scale(boreEnds(cylinder).axis, -1));
+    const [ex, ey] = add(other.direction, [dx, dy]);
+    return Math.abs(other.z - z) <= ONE_PLACE * r && Math.hypot(ex, ey) <= ONE_PLACE
+      && Math.abs(ax * dy - ay * dx) <= ONE_PLACE * r && ax * dx + ay * dy > r;
+  });
 }
 
 /** Points that a picture of the engine must contain. */
