@@ -74,8 +74,8 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
     seen: dict[tuple[float, ...], list[int]] = {}
     lowest, heads = at.lowest - SKIRT * bores, at.highest + (CROWN + 0.04) * bores
     middles = heads.copy()  # between the pistons, where they face each other
-    for k, distance in _opposed(engine, at):
-        middles[k] = lowest[k] + 0.5 * (distance - lowest[k].sum())
+    for pair, distance in _opposed(engine, at):
+        middles[pair] = lowest[pair] + 0.5 * (distance - lowest[pair].sum())
     for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
         place = (along.real, along.imag, foot.real, foot.imag, bores[k], heads[k])
         seen.setdefault(tuple(np.round(place, 9).tolist()), []).append(k)
