@@ -1,7 +1,7 @@
 //! Turning-moment diagrams by the areas that torque encloses with its mean.
 
 use crate::numbers::error::{Error, Result};
-use crate::numbers::limits;
+use crate::numbers::{limits, memory};
 use crate::readings::balance::angular_speed;
 
 /// Part of the sum of the sizes of areas up to which their sum is rounding of figures that were typed.
@@ -24,7 +24,7 @@ impl EnergyLevels {
     pub fn of_areas(areas: &[f64], spread: bool) -> Result<Self> {
         if areas.len() < 2 {
             let hint = "give at least two, one above the mean torque and one below";
-            return Err(Error::value("areas", format!("{areas:?}"), hint));
+            return Err(Error::value("areas", shortened(areas), hint));
         }
         for (k, &area) in areas.iter().enumerate() {
             limits::finite(&format!("areas[{k}]"), area)?;
@@ -33,7 +33,7 @@ impl EnergyLevels {
             areas.iter().fold((0.0, 0.0), |(sum, size), area| (sum + area, size + area.abs()));
         if !(size > 0.0 && f64::is_finite(size)) {
             let hint = "give areas of which some are not zero";
-            return Err(Error::value("areas", format!("{areas:?}"), hint));
+            return Err(Error::value("areas", shortened(areas), hint));
         }
         if sum.abs() > CLOSED * size && !spread {
             let hint = format!(
@@ -41,9 +41,9 @@ impl EnergyLevels {
                  that is wrong, or, where they were measured, let spread change each by {:.3} % of its size",
                 100.0 * sum.abs() / size
             );
-            return Err(Error::value("areas", format!("{areas:?}"), hint));
+            return Err(Error::value("areas", shortened(areas), hint));
         }
-        let mut levels = vec![0.0; areas.len() + 1];
+        let mut levels = memory::zeros(areas.len() + 1)?;
         for (k, &area) in areas.iter().enumerate() {
             levels[k + 1] = levels[k] + area - sum * (area.abs() / size);
         }
@@ -61,6 +61,14 @@ impl EnergyLevels {
     pub fn fluctuation(&self) -> f64 {
         self.levels[self.highest] - self.levels[self.lowest]
     }
+}
+
+/// The first areas, as a message shows them.
+fn shortened(areas: &[f64]) -> String {
+    const SHOWN: usize = 12;
+    let more = if areas.len() > SHOWN { ", …" } else { "" };
+    let first: Vec<String> = areas.iter().take(SHOWN).map(|area| format!("{area:?}")).collect();
+    format!("[{}{more}]", first.join(", "))
 }
 
 /// Moment of inertia times irregularity, kg·m², of a fluctuation of energy, J, at a speed midway between the
