@@ -21,11 +21,15 @@ from crankpin.analysis.mounts.powertrain import Powertrain as Powertrain
 from crankpin.analysis.operating_map import operating_map as operating_map
 from crankpin.analysis.prepared_trace import prepare_trace as prepare_trace
 from crankpin.analysis.ranking.rank import rank as rank
+from crankpin.analysis.rims import flywheel_disc as flywheel_disc
+from crankpin.analysis.rims import flywheel_rim as flywheel_rim
 from crankpin.analysis.star import star_diagram as star_diagram
 from crankpin.analysis.sweeps.sweep import sweep as sweep
 from crankpin.analysis.tolerances.match_parts import match_parts as match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances as tolerances
 from crankpin.analysis.torsional_excitation import torsional_excitation as torsional_excitation
+from crankpin.analysis.turning_moment import stroke_load as stroke_load
+from crankpin.analysis.turning_moment import turning_moment_areas as turning_moment_areas
 from crankpin.model.actuators import Actuator as Actuator
 from crankpin.model.cycle import Cycle as Cycle
 from crankpin.model.cycle_map import CycleMap as CycleMap

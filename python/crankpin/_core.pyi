@@ -63,9 +63,11 @@ __all__ = [
     "cylinder_torque_harmonics",
     "cylinder_warnings",
     "dead_text",
+    "disc",
     "drawn",
     "drawn_rod",
     "drawn_turning",
+    "energy_levels",
     "engine_warnings",
     "estimated_rod_inertia",
     "exact_angle",
@@ -77,6 +79,7 @@ __all__ = [
     "gas_text",
     "gas_warnings",
     "hardware_warnings",
+    "inertia_by_irregularity",
     "inline_throws",
     "listed_orders",
     "load_rows",
@@ -104,6 +107,7 @@ __all__ = [
     "read_numbers",
     "repeats_first",
     "rigid_body",
+    "rim",
     "rod_parts",
     "rod_ratios",
     "roll_torque",
@@ -432,6 +436,23 @@ class _Speed(TypedDict):
     extremes: list[float]
     approximations: tuple[float, float]
 
+def energy_levels(areas: Sequence[float], spread: bool) -> tuple[list[float], int, int]: ...
+def inertia_by_irregularity(energy: float, rpm: float) -> float: ...
+def rim(
+    inertia: float,
+    density: float,
+    rpm: float,
+    mean_diameter: float | None,
+    rim_speed: float | None,
+    hoop_stress: float | None,
+    width_ratio: float | None,
+    width: float | None,
+    thickness: float | None,
+) -> tuple[float, float, float, list[float] | None]: ...
+def disc(
+    inertia: float, density: float, diameter: float | None, thickness: float | None
+) -> list[float]: ...
+
 @final
 class CycleGrid:
     def __new__(cls, period_deg: float, knots: _Real) -> CycleGrid: ...
@@ -439,6 +460,7 @@ class CycleGrid:
     def edges_deg(self) -> _Real: ...
     @property
     def nodes_deg(self) -> _Real: ...
+    def mean(self, values: _Real) -> float: ...
     def speed(
         self,
         torque: _Real,

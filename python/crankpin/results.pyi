@@ -38,12 +38,15 @@ from crankpin.analysis.prepared_trace import PreparedTrace as PreparedTrace
 from crankpin.analysis.quantity import Quantity as Quantity
 from crankpin.analysis.ranking.ranking import Choice as Choice
 from crankpin.analysis.ranking.ranking import Ranking as Ranking
+from crankpin.analysis.rims import FlywheelDisc as FlywheelDisc
+from crankpin.analysis.rims import FlywheelRim as FlywheelRim
 from crankpin.analysis.star import StarDiagram as StarDiagram
 from crankpin.analysis.sweeps.sweep import Sweep as Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform as SweepWaveform
 from crankpin.analysis.tolerances.match_parts import Match as Match
 from crankpin.analysis.tolerances.samples import Tolerances as Tolerances
 from crankpin.analysis.torsional_excitation import TorsionalExcitation as TorsionalExcitation
+from crankpin.analysis.turning_moment import TurningMomentAreas as TurningMomentAreas
 from crankpin.analysis.vanishing import VanishingOrders as VanishingOrders
 from crankpin.analysis.vanishing import Verdicts as Verdicts
 from crankpin.analysis.waveform import Waveform as Waveform

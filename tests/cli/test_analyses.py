@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import crankpin as cp
 import matplotlib as mpl
+import numpy as np
 import pytest
 from crankpin.cli import main
 
@@ -129,3 +131,51 @@ def test_a_preset_is_compared_with_itself_as_textbooks_lump_it(capsys: CAPTURE) 
         cp.compare(uneven, "lumped", 3000)
     with pytest.raises(cp.InputError, match="lumped"):
         cp.compare(uneven, "lumpd", 3000)  # type: ignore[arg-type]
+
+
+DIAGRAM = "flywheel --areas 52,-124,92,-140,85,-72,107 --torque-scale 600 --angle-scale 3"
+
+
+def test_flywheels_without_an_engine(capsys: CAPTURE, tmp_path: Path) -> None:
+    text = printed(
+        capsys, f"{DIAGRAM} --rpm 600 --irregularity 3% --mean-diameter 1 --width-ratio 2"
+    )
+    diagram = cp.turning_moment_areas(
+        [52, -124, 92, -140, 85, -72, 107], torque_scale=600, angle_scale_deg=3, rpm=600,
+        irregularity=0.03,
+    )  # fmt: skip
+    rim = cp.flywheel_rim(diagram.inertia or 0.0, mean_diameter=1, rpm=600, width_ratio=2)
+    assert text.strip() == f"{diagram}\n\n{rim}"
+    table = tmp_path / "torque.csv"
+    theta = np.arange(0.0, 720.0)
+    torque = 5000 + 600 * np.sin(np.radians(2 * theta))
+    rows = "\n".join(f"{a},{t}" for a, t in zip(theta, torque, strict=True))
+    table.write_text(f"angle [deg],torque [N·m]\n{rows}\n")
+    wheel = cp.flywheel((theta, torque), 150, load="5000 + 500 sin θ", inertia=80)
+    line = f"flywheel --drive {table} --load 5000+500sin(θ) --rpm 150 --inertia 80"
+    assert printed(capsys, line).strip() == str(wheel)
+    work = cp.stroke_load(500, duration_deg=40, start_deg=10, period_deg=720)
+    punch = cp.flywheel(None, 60, load=work, irregularity=0.1)
+    text = printed(
+        capsys, "flywheel --stroke-load 500,40,10,720 --rpm 60 --irregularity 10% --frame table"
+    )
+    assert text.strip() == punch.table.text()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("flywheel --rpm 600 --inertia 1", "NAME is missing"),
+        (f"{DIAGRAM} i4", "NAME = i4: leave it out"),
+        (f"{DIAGRAM} --load 5", "--load = .*leave out --areas"),
+        (f"{DIAGRAM} --bore 86mm", "--bore = 86mm: leave it out: it needs an engine"),
+        (f"{DIAGRAM} --mean-diameter 1", "--irregularity is missing"),
+        ("flywheel --load 5 --tdc 4 --inertia 1", "--tdc = 4: leave it out"),
+        ("flywheel i4 --drive 5 --inertia 1", "--drive = 5: leave it out"),
+        ("flywheel i4 --spread --inertia 1", "--areas is missing"),
+        ("flywheel --stroke-load 5 --inertia 1", "give E,DURATION"),
+        ("flywheel --load x --inertia 1", "--load = 'x': give terms"),
+    ],
+)
+def test_flywheels_that_cannot_be(capsys: CAPTURE, words: str, message: str) -> None:
+    assert re.search(message, refused(capsys, words))

@@ -22,7 +22,7 @@ CAPTURE = pytest.CaptureFixture[str]
 WORDS = {
     "--name", "--units", "--out", "--plot", "--save", "--html", "--motored", "--cycle", "--sheet",
     "--pressure-unit", "--controls", "--columns", "--sides", "--vary", "--by", "--firing-order",
-    "--odd-bank", "--numbering", "--target", "--add-load",
+    "--odd-bank", "--numbering", "--target", "--add-load", "--drive", "--load",
 }  # fmt: skip
 """Options that are names, files and sequences, no numbers."""
 NAMES = {
@@ -71,7 +71,10 @@ VALUES = {
     "--intervals": "360,360", "--shafts": "1", "--count": "2", "--pick": "1", "--samples": "50",
     "--crank-radius": "0.01mm", "--rod-length": "0.01mm", "--order": "2",
     "--stroke": "86mm --rod-length 145mm", "--banks": "60,120", "--strokes": "4", "--crank": "0,0",
-    "--dummy": "2", "--pins": "60,30",
+    "--dummy": "2", "--pins": "60,30", "--mean-diameter": "1m", "--stroke-load": "500,40",
+    "--width-ratio": "2 --mean-diameter 1m", "--width": "100mm --mean-diameter 1m",
+    "--thickness": "30mm --mean-diameter 1m", "--share": "95% --mean-diameter 1m",
+    "--density": "7850 --mean-diameter 1m", "--rim-speed": "25", "--hoop-stress": "4MPa",
 }  # fmt: skip
 """A sound value of each option, with what it needs beside it."""
 IN_PLACE = {
@@ -129,6 +132,9 @@ IN_PLACE = {
     ("shafts", "--bearings"): "i4 --ratios 2,-2 --bearings 0,0.3",
     ("shafts", "--rpm"): "i4 --rpm 2000",
     ("flywheel", "--inertia"): "i4 --bore 86mm --inertia 0.2",
+    ("flywheel", "--areas"): "--rpm 600 --inertia 2 --areas 52,-52",
+    ("flywheel", "--torque-scale"): "--areas 52,-52 --torque-scale 600",
+    ("flywheel", "--angle-scale"): "--areas 52,-52 --angle-scale 3",
     ("sweep", "--rpm"): "v6-60 --orders 1,2 --rpm 1000,2000",
     ("tolerances", "--orders"): "i4 --z 1mm --samples 20 --orders 1,2",
     ("mounts", "--orders"): "car.toml --rpm 2000 --orders 1,2",

@@ -179,6 +179,9 @@ BESIDE = {
     ("Receptance", "coordinates"): "table",
     ("Traces", "theta_deg"): "pressure",
     ("flywheel", "rpm"): "inertia",
+    ("flywheel", "drive"): "load",
+    ("flywheel_rim", "mean_diameter"): "width_ratio",
+    ("stroke_load", "period_deg"): "duration_deg",
     ("sweep", "rod_ratio"): "rtol",
     ("wiebe", "intake_closes_deg"): "start_deg",
 }

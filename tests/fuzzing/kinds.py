@@ -80,6 +80,7 @@ SIX = [0.5, 0.51, 0.49, 0.5, 0.505, 0.495, 0.5]
 
 KINDS: dict[str, list[Any]] = {
     # Moving parts.
+    "areas": [[52.0, -124.0, 92.0, -20.0]],
     "bore": [0.086],
     "crank_radius": [0.04, 1e-5],
     "length": [0.15],
@@ -94,10 +95,20 @@ KINDS: dict[str, list[Any]] = {
     "rod_ratio": [0.3, [0.2, 0.3]],
     "rotating_mass": [0.3],
     "stroke": [0.086, Beside(0.002, {"mass": 2.0})],
+    "density": [7200.0],
+    "energy": [500.0],
+    "hoop_stress": [Beside(4e6, {"mean_diameter": ..., "rpm": 240.0})],
+    "mean_diameter": [1.0],
+    "rim_speed": [Beside(25.0, {"mean_diameter": ..., "rpm": 240.0})],
+    "share": [0.95],
+    "thickness": [0.03, Beside(0.03, {"stroke": 0.1, "duration_deg": ...})],
     "to_crankpin": [0.05],
+    "torque_scale": [600.0],
+    "width_ratio": [2.0],
     "parts": [{"piston": 0.4, "pin": 0.1}],
     # Places and angles.
     "absent": [[1]],
+    "angle_scale_deg": [3.0],
     "angle_deg": [30.0, [30, 200]],
     "angles_deg": [[0, 120, 240]],
     "bank_angle_deg": [60, Beside(60, {"hold": "pins"}), [60, 90], Beside(60, {"layout": "vee"})],
@@ -212,7 +223,7 @@ KINDS: dict[str, list[Any]] = {
     "drive": [ENGINE, CURVE],
     "inertia": [(7.0, 8.0, 4.5), 0.2],
     "irregularity": [0.01],
-    "period_deg": [Beside(360.0, {"drive": CURVE})],
+    "period_deg": [Beside(360.0, {"drive": CURVE}), 720.0],
     # Files of cycles.
     "angle_unit": ["deg", Beside("deg", {"path": "cycle.csv"})],
     "atmosphere": [1e5],

@@ -165,6 +165,11 @@ OBJECTS = Made(
             V6, planes="webs", target="internal", factor=0.4, bound=0.1
         ),
         "Flywheel": lambda: cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
+        "TurningMomentAreas": lambda: cp.turning_moment_areas(
+            [52, -124, 92, -20], torque_scale=600, angle_scale_deg=3, rpm=600, irregularity=0.03
+        ),
+        "FlywheelRim": lambda: cp.flywheel_rim(45.0, rim_speed=25, rpm=240, width_ratio=2),
+        "FlywheelDisc": lambda: cp.flywheel_disc(0.12, diameter=0.28),
         "BobWeight": lambda: cp.bob_weight(V6, 0.52, oil=0.004),
         "Card": lambda: cp.bob_weight(V6, parts={"piston": 0.5, "pin": 0.1}).card(
             [0.52], rpm=5000, planes="ends", radius=0.07, balanced_to=1.0

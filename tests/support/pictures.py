@@ -225,6 +225,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
         rpm=150,
         inertia=80.0,
     ).plot(**place),
+    "turning-moment-areas": lambda **place: cp.turning_moment_areas(
+        [52, -124, 92, -140, 85, -72, 107], torque_scale=600, angle_scale_deg=3
+    ).plot(**place),
     "bob-weight": lambda **place: cp.bob_weight(V6_90).plot(**place),
     "bob-weights": _bob_weights,
     "search": lambda **place: cp.search_arrangements(14).within(40, 70).plot(**place),

@@ -148,6 +148,20 @@ class Table(Tabled):
     """Number of the rows of which these are the first; 0 for all."""
 
     @classmethod
+    def _of_figures(
+        cls, title: str, figures: Iterable[tuple[str, float | None, str]], loads: str = ""
+    ) -> Table:
+        """Return a table of figures, (name, value, unit), without those that are None."""
+        known = [figure for figure in figures if figure[1] is not None]
+        names, values, row_units = zip(*known, strict=True)
+        columns = (
+            Column("figure", names),
+            Column("value", values, digits=6),
+            Column("unit", row_units),
+        )
+        return cls(title, columns, loads=loads, row_units=row_units)
+
+    @classmethod
     def from_rows(
         cls,
         title: str,

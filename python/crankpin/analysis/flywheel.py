@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.request import engine_core
+from crankpin.analysis.turning_moment import formula
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import checks
 from crankpin.model.data import EngineData
@@ -26,8 +27,9 @@ if TYPE_CHECKING:
     from crankpin.model.cycle import Cycle
     from crankpin.model.engine import Engine
 
-Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
-"""Torque over crank angle: a function of degrees, or angles and torques."""
+Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike] | str"
+"""Torque over crank angle: a function of degrees, angles and torques, or a formula."""
+CURVE_HINT = "give a function of degrees, (angles in degrees, torques in N·m), or a formula"
 TWO_TURNS = 720.0
 """Period of functions, degrees: that of whole and half orders."""
 MOST_KNOTS = 100_000
@@ -44,12 +46,12 @@ APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
 
 
 def flywheel(
-    drive: Engine | Curve,
+    drive: Engine | Curve | None,
     rpm: float,
     *,
     inertia: float | None = None,
     irregularity: float | None = None,
-    load: Curve | None = None,
+    load: Curve | Sequence[Curve] | None = None,
     period_deg: float | None = None,
 ) -> Flywheel:
     """Return the speed over a cycle with a flywheel, or the flywheel that keeps it even.
@@ -61,11 +63,12 @@ def flywheel(
 
     Parameters
     ----------
-    drive : Engine, callable or pair of array_like
+    drive : Engine, callable, pair of array_like, str or None
         A fired engine (:meth:`Engine.with_cycle`), or one with periodic loads
         (:meth:`Engine.with_loads`); or a turning-moment diagram, the torque on the
         crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
-        and torques, between which it is linear. An angle given twice is one where torque jumps.
+        and torques, between which it is linear; or a formula, ``"5000 + 600 sin 2θ"``. None is a
+        motor of even torque, the load's mean. An angle given twice is one where torque jumps.
         Angles over one or two turns, open or closed, are read as those of a :class:`Cycle`; those
         over another period end with the torque of their beginning.
     rpm : float
@@ -76,9 +79,10 @@ def flywheel(
     irregularity : float, optional
         Irregularity to find the moment of inertia for, in place of ``inertia``: largest less
         smallest speed, over the mean speed.
-    load : callable or pair of array_like, optional
-        Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
-        speed its mean is that of the drive: only its variation about its mean counts.
+    load : callable, pair of array_like, str or sequence of these, optional
+        Torque of the load over crank angle, as ``drive``, or of several loads; by default constant.
+        At a constant mean speed its mean is that of the drive: only its variation about its mean
+        counts. :func:`stroke_load` is that of a punch.
     period_deg : float, optional
         Period of a turning-moment diagram, degrees; by default that of the angles, and 720 of a
         function.
@@ -144,26 +148,27 @@ def flywheel(
         torque = _of_engine(engine, inputs.number("rpm", rpm), period_deg)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
-        torque = _diagram("drive", drive, period_deg)
-    against = None if load is None else _diagram("load", load, None)
-    period = torque.period or TWO_TURNS
-    knots = torque.knots
-    if against is not None:
-        ratio = period / against.period if against.period else 0.0
-        if ratio * len(against.knots) > MOST_KNOTS:
-            fault = f"has {len(against.knots)} angles in {against.period:.10g}°, which is "
-            fault += f"{ratio:.10g} times in {period:.10g}°"
-            raise inputs.faulty("load", fault, "give a longer period, or fewer angles")
-        if abs(ratio - round(ratio)) > EQUAL * ratio:
-            hint = f"give one of which {period:.10g}°, that of the drive, is a multiple"
-            raise inputs.faulty("load", f"has a period of {against.period:.10g}°", hint)
-        turns = np.arange(max(round(ratio), 1)) * (against.period or 0.0)
-        knots = np.concatenate([knots, *(against.knots + start for start in turns)])
+        torque = _even(period_deg) if drive is None else _diagram("drive", drive, period_deg)
+    loads = [] if load is None else [_diagram("load", curve, None) for curve in _curves(load)]
+    if drive is None and not loads:
+        raise inputs.rejected("load", None, "give the load of a motor of even torque")
+    periods = [against.period for against in loads if against.period]
+    period = torque.period or (max(periods) if drive is None and periods else TWO_TURNS)
+    knots = np.concatenate([torque.knots, *(_repeated(against, period) for against in loads)])
     grid = _core.CycleGrid(period, knots)
     nodes, edges = grid.nodes_deg, grid.edges_deg
+
+    def of_loads(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(sum((against.at(theta) for against in loads), np.zeros(theta.shape)))
+
+    even = grid.mean(of_loads(nodes)) if drive is None else 0.0
+
+    def of_drive(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        return torque.at(theta) + even
+
     found = grid.speed(
-        torque.at(nodes),
-        np.zeros(nodes.shape) if against is None else against.at(nodes),
+        of_drive(nodes),
+        of_loads(nodes),
         None if engine is None else engine._core,
         inputs.number("rpm", rpm),
         inputs.optional_number("inertia", inertia),
@@ -184,8 +189,8 @@ def flywheel(
         found["approximations"],
         edges,
         found["speed"] / of_one_rpm,
-        torque.at(edges),
-        np.full(edges.shape, found["mean_torque"]) if against is None else against.at(edges),
+        of_drive(edges),
+        of_loads(edges) if loads else np.full(edges.shape, found["mean_torque"]),
         found["inertia_torque"],
         found["moving_inertia"],
     )
@@ -336,13 +341,7 @@ class Flywheel(Tabled):
             ("largest acceleration", self.acceleration, "rad/s²"),
             ("swing", self.swing_deg, "°"),
         )
-        names, values, units = zip(*figures, strict=True)
-        columns = (
-            Column("figure", names),
-            Column("value", values, digits=6),
-            Column("unit", units),
-        )
-        return Table(self.title, columns, loads=self.loads_counted, row_units=units)
+        return Table._of_figures(self.title, figures, self.loads_counted)
 
     @property
     def frames(self) -> Frames:
@@ -430,6 +429,41 @@ def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
     return _Diagram(at, period, np.concatenate([*bends, []]))
 
 
+def _even(period_deg: object) -> _Diagram:
+    """Return no torque; rejects a period, which is that of the load."""
+    if period_deg is not None:
+        hint = "the period is that of the load; leave it out"
+        raise inputs.rejected("period_deg", period_deg, hint)
+    return _Diagram(np.zeros_like, None, np.empty(0))
+
+
+def _curves(load: object) -> list[object]:
+    """Return the loads: one, or those of a list."""
+    if callable(load) or isinstance(load, str):
+        return [load]
+    listed = inputs.items("load", load, CURVE_HINT)
+
+    def is_curve(item: Any) -> bool:  # noqa: ANN401 - whatever a list has
+        pair = isinstance(item, (list, tuple)) and len(item) == 2
+        return callable(item) or isinstance(item, str) or (pair and all(np.ndim(i) for i in item))
+
+    return listed if listed and all(map(is_curve, listed)) else [load]
+
+
+def _repeated(against: _Diagram, period: float) -> NDArray[np.float64]:
+    """Return the knots of a load over the period of the drive; rejects periods that do not fit."""
+    ratio = period / against.period if against.period else 0.0
+    if ratio * len(against.knots) > MOST_KNOTS:
+        fault = f"has {len(against.knots)} angles in {against.period:.10g}°, which is "
+        fault += f"{ratio:.10g} times in {period:.10g}°"
+        raise inputs.faulty("load", fault, "give a longer period, or fewer angles")
+    if abs(ratio - round(ratio)) > EQUAL * ratio:
+        hint = f"give one of which {period:.10g}°, the whole period, is a multiple"
+        raise inputs.faulty("load", f"has a period of {against.period:.10g}°", hint)
+    turns = np.arange(max(round(ratio), 1)) * (against.period or 0.0)
+    return np.asarray(np.add.outer(turns, against.knots).ravel())
+
+
 def _bends(cycle: Cycle) -> NDArray[np.float64]:
     """Return the angles at which pressure jumps or bends: all of a table that is not a fine one."""
     theta: NDArray[np.float64] = cycle.theta_deg
@@ -443,6 +477,8 @@ def _diagram(name: str, curve: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
     if period is not None and not 0.0 < period < np.inf:
         raise inputs.rejected("period_deg", period, "give the period of the torque, such as 720")
+    if isinstance(curve, str):
+        return _Diagram(formula(name, curve), period, np.empty(0))
     if callable(curve):
 
         def of_function(theta: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -453,7 +489,7 @@ def _diagram(name: str, curve: object, period_deg: object) -> _Diagram:
             return np.ascontiguousarray(np.broadcast_to(found, theta.shape))
 
         return _Diagram(of_function, period, np.empty(0))
-    hint = "give a function of degrees, or (angles in degrees, torques in N·m)"
+    hint = CURVE_HINT
     pair = inputs.items(name, curve, hint)
     if len(pair) != 2:
         raise inputs.rejected(name, curve, hint)

@@ -2,24 +2,38 @@
 
 from __future__ import annotations
 
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._support import inputs
+from crankpin._support.frames import Frames
 from crankpin._support.tables import Table
 from crankpin.analysis.comparison import LUMPED, compare
 from crankpin.analysis.exercises import TOPICS, exercise
 from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.rims import flywheel_rim
 from crankpin.analysis.star import star_diagram
+from crankpin.analysis.turning_moment import stroke_load, turning_moment_areas
 from crankpin.cli.loads import OF_A_FILE, fired
-from crankpin.cli.options import command, keyword, keywords, option, rejected
+from crankpin.cli.options import OPTIONS, command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, only
+from crankpin.model import table_files
 from crankpin.model.cylinder import slider_crank_harmonics
+from crankpin.model.table_files import FILE_HINT, TABLE_ENDINGS
 
 if TYPE_CHECKING:
+    from crankpin.analysis.flywheel import Flywheel
+    from crankpin.analysis.turning_moment import TurningMomentAreas
     from crankpin.cli.arguments import Given
 
+DIAGRAM = "turning-moment diagram"
+"""Title of the options of what drives a crank in place of an engine."""
+OF_ENGINES = ("--cycle", "--firing-order", "--bore", "--crankcase",
+              *(option.label for option in OF_A_FILE))  # fmt: skip
+"""Options that nothing but an engine has."""
 HIGHEST_PRINTED = 12
 """Highest order of the harmonics that are printed without ``--orders``."""
 
@@ -54,21 +68,103 @@ def _compare(call: Given) -> Shown:
 
 @command(
     "flywheel",
-    "speed over a cycle with a flywheel, or the flywheel that keeps it even",
-    "name --rpm",
+    "speed over a cycle with a flywheel, or the flywheel that keeps it even, and its rim",
+    option("name", nargs="?", help=f"{OPTIONS['name']['help']}; or --drive, --load or --areas"),
+    "--rpm",
     keyword(flywheel, "inertia", metavar="J"),
     keyword(flywheel, "irregularity", metavar="X", more=", 0.01 or 1%"),
     "--cycle --firing-order --bore --crankcase",
     *OF_A_FILE,
+    option(
+        "--drive",
+        metavar="TORQUE",
+        group=DIAGRAM,
+        help='torque in place of an engine, N·m: a formula, "5000 + 600 sin 2θ", or a file of '
+        "columns of crank angles, degrees, and torques",
+    ),
+    option(
+        "--load",
+        metavar="TORQUE",
+        action="append",
+        group=DIAGRAM,
+        help="torque of a load, as --drive; once for each. Without an engine or --drive a motor "
+        "drives it evenly",
+    ),
+    option(
+        "--stroke-load",
+        metavar="E,DURATION",
+        action="append",
+        group=DIAGRAM,
+        help="a load such as a punch that takes its energy E, J, over this angle of each turn, "
+        "degrees; also E,DURATION,START,PERIOD",
+    ),
+    *keywords(turning_moment_areas, "areas torque_scale angle_scale_deg spread", group=DIAGRAM),
+    *keywords(
+        flywheel_rim,
+        "mean_diameter rim_speed hoop_stress width_ratio width thickness share density",
+        group="rim",
+    ),
     "--units",
-    option("--frame", choices=("table", "approximations", "orders")),
+    option("--frame", choices=("table", "approximations", "orders", "levels", "rim")),
     "--csv --plot",
     example="flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
 )
 def _flywheel(call: Given) -> Shown:
-    engine, note = fired(call, "flywheel")
-    wheel = flywheel(engine, call.number("--rpm", "rpm"), **call.keywords(flywheel))
-    return Shown(wheel.frames, wheel, note=note)
+    figures, areas = call.keywords(flywheel), call.keywords(turning_moment_areas)
+    rpm, note = call.number("--rpm", "rpm"), ""
+    loads = [_curve("--load", text) for text in call.text("--load") or ()]
+    loads += [_stroke_load(call, text) for text in call.text("--stroke-load") or ()]
+    wheel: Flywheel | TurningMomentAreas
+    others = ["--drive", "--load", "--stroke-load"] if "areas" in areas else []
+    if others or call.text("name") is None:
+        others += OF_ENGINES
+    if "areas" in areas and call.text("name") is not None:
+        raise rejected("NAME", call.text("name"), "leave it out: --areas stand for an engine")
+    if flag := next(filter(call.text, others), None):
+        hint = "leave it out: it needs an engine" if flag in OF_ENGINES else "leave out --areas"
+        raise rejected(flag, str(call.text(flag)), hint)
+    if "areas" in areas:
+        wheel = turning_moment_areas(rpm=rpm if figures else None, **figures, **areas)
+    else:
+        if areas:
+            raise inputs.faulty("--areas", "is missing", "give them, or leave out their scales")
+        drive: Any = call.text("--drive") and _curve("--drive", call.text("--drive"))
+        if call.text("name") is not None:
+            if drive:
+                raise rejected("--drive", call.text("--drive"), "leave it out: an engine drives")
+            drive, note = fired(call, "flywheel")
+        elif not (drive or loads):
+            raise inputs.faulty("NAME", "is missing", "give an engine, --drive, --load or --areas")
+        wheel = flywheel(drive, rpm, load=loads or None, **figures)
+    frames = wheel.frames
+    if section := call.keywords(flywheel_rim):
+        if wheel.inertia is None:
+            raise inputs.faulty("--irregularity", "is missing", "a rim needs it, or --inertia")
+        rim = flywheel_rim(wheel.inertia, rpm=rpm, **section)
+        frames = Frames({name: partial(frames.__getitem__, name) for name in frames}
+                        | {"rim": lambda: rim.table})  # fmt: skip
+    return Shown(frames, wheel, note=note)
+
+
+def _curve(flag: str, text: str) -> Any:  # noqa: ANN401 - a formula, or angles and torques
+    """Return a formula as it is, and the columns of a file."""
+    if Path(text).suffix.lower() not in TABLE_ENDINGS:
+        return text
+    theta, torque = table_files.read(
+        inputs.file_path(text, TABLE_ENDINGS, FILE_HINT), [0, 1]
+    ).numbers.T
+    if not len(theta):
+        raise rejected(flag, text, "has no rows of numbers")
+    return theta, torque
+
+
+def _stroke_load(call: Given, text: str) -> Any:  # noqa: ANN401 - angles and torques
+    """Return the load of an energy, a duration and, where typed, a beginning and a period."""
+    energy, *angles = call.listed("--stroke-load", text)
+    names = ("duration_deg", "start_deg", "period_deg")
+    if not 1 <= len(angles) <= len(names):
+        raise rejected("--stroke-load", text, "give E,DURATION or E,DURATION,START,PERIOD")
+    return stroke_load(energy, **dict(zip(names, angles, strict=False)))
 
 
 @command(

@@ -11,6 +11,7 @@ from crankpin._support.drawing import picture
 from crankpin._support.inputs import optional_text
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.prepared_trace import PreparedTrace
+from crankpin.analysis.turning_moment import TurningMomentAreas
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import Traces
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.model.cylinder import Cylinder
+
+SIDES = ("C0", "C3")
+"""Colours of areas above the mean and below it."""
 
 
 @picture.register(Cycle)
@@ -212,6 +216,10 @@ def _flywheel(
             panel.plot(theta, values, gid=SERIES, label=named, **look)
         thin: dict[str, Any] = {"color": muted(panel), "linewidth": 0.8, "linestyle": "--"}
         panel.plot(theta, level, gid="", label=name, **thin)
+        if name == "load":
+            _shade(panel, theta, [*lines.values()][-1] - level, level)
+        else:
+            _mark_extremes(panel, theta, result.speed_rpm)
         numeric(panel.yaxis)
         label_y(panel, quantity)
         add_legend(panel)
@@ -221,3 +229,44 @@ def _flywheel(
     irregularity = f"irregularity {100.0 * result.irregularity:.3g} %"
     panels.set_title(result.title, joined(irregularity, loads_of(result)))
     return panels.drawn
+
+
+@picture.register(TurningMomentAreas)
+def _areas(
+    result: TurningMomentAreas, ax: Axes | None = None, *, label: str | None = None, **style: object
+) -> Axes:
+    """Draw the areas in their order, shaded, and the energy at the crossings between them.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of the line of energy, as matplotlib takes them.
+    """
+    ax = axes_or_new(ax)
+    crossings = np.arange(len(result.levels))
+    colors = np.where(result.areas > 0.0, *SIDES)
+    ax.bar(crossings[1:] - 0.5, result.areas, 1.0, color=colors, alpha=0.2, gid="")
+    (look,) = series(ax, 1, style)
+    name = optional_text("label", label) or "energy"
+    ax.plot(crossings, result.levels, gid=SERIES, label=name, marker=".", **look)
+    _mark_extremes(ax, crossings, result.levels)
+    set_title(ax, result.table.title, f"fluctuation of energy {result.energy:.4g} J")
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    label_x(ax, "crossing of torque and its mean")
+    label_y(ax, units.headed("work", "J"))
+    add_legend(ax)
+    return ax
+
+
+def _shade(ax: Axes, x: NDArray[Any], above: NDArray[Any], level: NDArray[Any]) -> None:
+    """Shade what is above a level, and what is below it."""
+    for part, color in zip((above > 0.0, above < 0.0), SIDES, strict=True):
+        look: dict[str, Any] = {"alpha": 0.2, "color": color, "linewidth": 0}
+        ax.fill_between(x, level, level + above, where=part, interpolate=True, **look)
+
+
+def _mark_extremes(ax: Axes, x: NDArray[Any], values: NDArray[Any]) -> None:
+    """Mark the highest and the lowest point of a curve."""
+    for k, marker, name in ((values.argmax(), "^", "fastest"), (values.argmin(), "v", "slowest")):
+        ax.plot(x[k], values[k], marker, color=muted(ax), gid="", label=name)

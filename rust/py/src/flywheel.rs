@@ -1,11 +1,14 @@
 //! Speed of a crank over a cycle.
 
 use crate::array::frozen;
+use crankpin_core::flywheel::areas::EnergyLevels;
+use crankpin_core::flywheel::rim::{Rim, RimDiameter, RimSection};
 use crankpin_core::flywheel::{self, CrankDrive, FlywheelTarget};
 use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::convert::OrRaise;
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -40,6 +43,65 @@ pub fn mean_inertias<'py>(
     frozen(py, found.into())
 }
 
+/// Energy where torque crosses its mean: the levels, and the indices of the highest and the lowest.
+#[guarded]
+#[pyfunction]
+pub fn energy_levels(areas: Vec<f64>, spread: bool) -> PyResult<(Vec<f64>, usize, usize)> {
+    let EnergyLevels { levels, highest, lowest } =
+        EnergyLevels::of_areas(&areas, spread).or_raise()?;
+    Ok((levels, highest, lowest))
+}
+
+/// Moment of inertia times irregularity of a fluctuation of energy.
+#[guarded]
+#[pyfunction]
+pub fn inertia_by_irregularity(energy: f64, rpm: f64) -> PyResult<f64> {
+    flywheel::areas::inertia_by_irregularity(energy, rpm).or_raise()
+}
+
+/// Mass, mean diameter, area, width and thickness of a rim, by one of three figures of its diameter and at most
+/// one of its section.
+#[guarded]
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python names them")]
+pub fn rim(
+    inertia: f64,
+    density: f64,
+    rpm: f64,
+    mean_diameter: Option<f64>,
+    rim_speed: Option<f64>,
+    hoop_stress: Option<f64>,
+    width_ratio: Option<f64>,
+    width: Option<f64>,
+    thickness: Option<f64>,
+) -> PyResult<(f64, f64, f64, Option<[f64; 2]>)> {
+    let diameter = match (mean_diameter, rim_speed) {
+        (Some(diameter), _) => RimDiameter::Mean(diameter),
+        (None, Some(speed)) => RimDiameter::Speed(speed, rpm),
+        _ => RimDiameter::Stress(hoop_stress.unwrap_or_default(), rpm),
+    };
+    let section = match (width_ratio, width, thickness) {
+        (Some(ratio), ..) => RimSection::WidthOverThickness(ratio),
+        (_, Some(width), _) => RimSection::Width(width),
+        (.., Some(thickness)) => RimSection::Thickness(thickness),
+        _ => RimSection::Thin,
+    };
+    let rim = Rim::new(inertia, density, diameter, section).or_raise()?;
+    Ok((rim.mass, rim.mean_diameter, rim.area, rim.section))
+}
+
+/// Thickness and diameter of a disc by one of them.
+#[guarded]
+#[pyfunction]
+pub fn disc(
+    inertia: f64,
+    density: f64,
+    diameter: Option<f64>,
+    thickness: Option<f64>,
+) -> PyResult<[f64; 2]> {
+    flywheel::rim::disc(inertia, density, diameter, thickness).or_raise()
+}
+
 #[guarded]
 #[pymethods]
 impl CycleGrid {
@@ -60,6 +122,11 @@ impl CycleGrid {
     #[getter]
     fn nodes_deg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         frozen(py, self.0.nodes_deg.clone().into())
+    }
+
+    /// Mean over the period of a function from its values at the points inside the cells.
+    fn mean(&self, values: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
+        Ok(self.0.mean(values.as_slice()?))
     }
 
     /// Speed over the cycle, from torques at the nodes and a moment of inertia or an irregularity.

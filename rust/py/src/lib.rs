@@ -56,7 +56,7 @@ mod _core {
         explain::{Explanation, dead_text, explain, gas_text},
         figures::{drawn, drawn_rod, drawn_turning, listed_orders, load_rows, rod_ratios},
         firing::{Firing, check_timing, inline_throws, vee_throws},
-        flywheel::{CycleGrid, mean_inertias},
+        flywheel::{CycleGrid, disc, energy_levels, inertia_by_irregularity, mean_inertias, rim},
         matching::MeasuredParts,
         mounts::{
             AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, check_mount,

@@ -4,6 +4,9 @@
 //! J = J₀ + Σ m·s′² + Σ (I − m·a·b)·φ′² of pistons and rods. T is the torque of the gas alone: inertia
 //! torque is what the change of J makes of the speed, and counted with T it would count twice.
 
+pub mod areas;
+pub mod rim;
+
 use std::sync::LazyLock;
 
 use crate::engine::Engine;
@@ -90,7 +93,8 @@ impl CycleGrid {
     }
 
     /// Mean over the period of a function from its values at the points inside the cells.
-    fn mean(&self, values: &[f64]) -> f64 {
+    #[must_use]
+    pub fn mean(&self, values: &[f64]) -> f64 {
         let of_cell = |(k, inside): (usize, &[f64])| self.width(k) * mean_of(inside);
         let sum: f64 = values.chunks_exact(POINTS_IN_CELL).enumerate().map(of_cell).sum();
         sum / self.edges_deg[self.edges_deg.len() - 1].to_radians()
