@@ -325,9 +325,8 @@ def speeds(rpm: ArrayLike) -> float | NDArray[np.float64]:
 
 
 def fastest(rpm: float | NDArray[np.float64]) -> float:
-    """Return the highest of one or several speeds, whatever their sense."""
-    at = np.ravel(rpm)
-    return float(at[np.abs(at).argmax()])
+    """Return the highest of one or several speeds."""
+    return float(np.max(rpm))
 
 
 # --- words --------------------------------------------------------------------------------------

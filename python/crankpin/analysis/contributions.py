@@ -64,9 +64,7 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
     return parts
 
 
-def of_cylinders(
-    whole: Balance, torque: str
-) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+def of_cylinders(whole: Balance, torque: str) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
     """Return a torque that each cylinder makes, by order, and the bounds of its rounding errors.
 
     Both of shape (n_cylinders, n_orders).

@@ -96,8 +96,8 @@ def foundation_table(
     """
     core = engine_core(engine)
     explicit = tuple(inputs.explicit_half_orders(orders))
-    checks.angles(vertical_deg=vertical_deg)
     vertical = inputs.degrees(inputs.angle("vertical_deg", vertical_deg))
+    checks.angles(vertical_deg=vertical_deg)
     plane = engine.reference_z
     if reference_z is not None:
         plane = inputs.finite("reference_z", reference_z)

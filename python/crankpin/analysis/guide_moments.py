@@ -172,7 +172,7 @@ class GuideMoments(Labelled):
             phasors, bounds = of_cylinders(balance, f"torque.{name}")
             parts[name] = tuple(np.multiply.outer(scales[name], of) for of in (phasors, bounds))
         parts[""] = tuple(sum(of) for of in zip(*parts.values(), strict=True))
-        return parts  # type: ignore[return-value] # pairs
+        return parts
 
     def _values(self, quantity: str) -> NDArray[Any]:
         whole, _, part = quantity.partition(".")

@@ -1,4 +1,4 @@
-"""Locomotives: balance weights in wheels, hammer blow, variation of tractive effort, swaying."""
+"""Locomotives: counterweights in wheels, hammer blow, variation of tractive effort, swaying."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Framed
 from crankpin._support.quantities import OF_WHEELS
@@ -39,10 +41,12 @@ KMH = 3.6
 """A metre per second, km/h."""
 NEGLIGIBLE = 1e-12
 """Part of all that turns with an axle below which its unbalance is rounding."""
+LONGEST_FRACTION = 10**9
+"""Largest denominator of an angle that is a fraction."""
 
 
 class Locomotive(Framed, Input):
-    """Steam locomotive: horizontal cylinders on axles, and the balance weights in its wheels.
+    """Steam locomotive: horizontal cylinders on axles, and the counterweights in its wheels.
 
     It is an engine with bores at 180° and a crank for each axle, z along the axles from right to
     left. The wheels turn counter-clockwise, so that it travels towards −x, and the cylinders are
@@ -79,7 +83,7 @@ class Locomotive(Framed, Input):
         Parts of coupling rods and their pins that turn with every axle; with ``pin`` the angle is
         counted from the crank of that cylinder.
     weights : sequence of sequence of Unbalance, optional
-        Balance weights of each axle in place of those that ``share`` asks for.
+        Counterweights of each axle in place of those that ``share`` asks for.
     wheel_load : float or sequence of float, optional
         Static load of each wheel on the rail, N; of all, or right and left of each axle.
     name : str, optional
@@ -101,7 +105,7 @@ class Locomotive(Framed, Input):
     ...     wheel_diameter=1.7, wheel_load=70e3, name="Two cylinders",
     ... )
     >>> two
-    Two cylinders: balance weights and what they leave
+    Two cylinders: counterweights and what they leave
     wheel          z m  weight kg·m  angle °  unbalance kg·m  lifts at rpm  lifts at km/h
     axle 1 right  -0.8       46.309   21.371          46.309        371.27         118.98
     axle 1 left    0.8       46.309   68.629          46.309        371.27         118.98
@@ -142,14 +146,13 @@ class Locomotive(Framed, Input):
         wheel_load: ArrayLike | None = None,
         name: str = "",
     ) -> None:
-        places = tuple(inputs.finite_array("z", inputs.listed_numbers("z", z)).tolist())
+        places, wheels, axles = (
+            tuple(inputs.limited(argument, x) for x in inputs.listed_numbers(argument, values))
+            for argument, values in (("z", z), ("wheel_z", wheel_z), ("axle_x", axle_x))
+        )
         count = len(places)
-        wheels = inputs.finite_array("wheel_z", inputs.listed_numbers("wheel_z", wheel_z)).tolist()
         if len(wheels) != 2 or wheels[0] == wheels[1]:
             raise inputs.rejected("wheel_z", wheel_z, "give the places of two wheels, m")
-        axles = tuple(
-            inputs.finite_array("axle_x", inputs.listed_numbers("axle_x", axle_x)).tolist()
-        )
         if not axles:
             raise inputs.rejected("axle_x", axle_x, "give the place of one axle, or of several, m")
         drives = [driving] * count if not inputs.is_listed(driving) else driving
@@ -236,13 +239,13 @@ class Locomotive(Framed, Input):
     @property
     def _bores(self) -> list[str]:
         """Directions of the bores, exact degrees."""
-        return [str(180 - Fraction(tilt)) for tilt in self.inclination_deg]
+        return [_exact(180 - Fraction(tilt)) for tilt in self.inclination_deg]
 
     @property
     def _pins(self) -> list[str]:
         """Directions of the cranks at θ = 0, where cylinder 1 is at its dead centre."""
         start = Fraction(self._bores[0]) - Fraction(self.throws_deg[0])
-        return [str((start + Fraction(throw)) % 360) for throw in self.throws_deg]
+        return [_exact(start + Fraction(throw)) for throw in self.throws_deg]
 
     @property
     def _coupled(self) -> list[Unbalance]:
@@ -253,13 +256,13 @@ class Locomotive(Framed, Input):
         if weight.pin is None:
             return weight
         angle = Fraction(self._pins[weight.pin - 1]) + Fraction(weight.exact_angle)
-        return Unbalance(weight.amount, weight.z, str(angle % 360))
+        return Unbalance(weight.amount, weight.z, _exact(angle))
 
     # --- weights in the wheels -------------------------------------------------------------------
 
     @cached_property
     def _balancing(self) -> tuple[tuple[Unbalance, ...], ...]:
-        """Balance weights of each axle."""
+        """Counterweights of each axle."""
         if self.weights is not None:
             return tuple(tuple(map(self._fixed, of_axle)) for of_axle in self.weights)
         return tuple(
@@ -301,14 +304,14 @@ class Locomotive(Framed, Input):
 
     @cached_property
     def unbalances(self) -> tuple[Unbalance, ...]:
-        """What turns with each wheel and is not balanced, in its plane, right and left of each axle.
+        """Unbalance that turns with each wheel, in its plane, right and left of each axle.
 
         Its force is amount·ω², its vertical part the hammer blow.
         """
         left = []
         for axle, weights in enumerate(self._balancing):
             for weight in self._opposing(axle, weights, 0.0):
-                angle = str((Fraction(weight.exact_angle) + 180) % 360)
+                angle = _exact(Fraction(weight.exact_angle) + 180)
                 left.append(Unbalance(weight.amount, weight.z, angle) if weight.amount else weight)
         return tuple(left)
 
@@ -338,8 +341,15 @@ class Locomotive(Framed, Input):
         """Return the speed of the wheels, rpm."""
         inputs.only_one_of(rpm=rpm, speed_kmh=speed_kmh)
         if speed_kmh is None:
+            inputs.angular_speed(rpm)
             return inputs.number("rpm", rpm)
-        return inputs.finite("speed_kmh", speed_kmh) / self._kmh_per_rpm
+        speed = inputs.finite("speed_kmh", speed_kmh) / self._kmh_per_rpm
+        try:
+            inputs.angular_speed(speed)
+        except InputError:
+            hint = "give km/h, zero or more, that these wheels can have"
+            raise inputs.rejected("speed_kmh", speed_kmh, hint) from None
+        return speed
 
     # --- questions -------------------------------------------------------------------------------
 
@@ -405,15 +415,18 @@ class Locomotive(Framed, Input):
         omega = inputs.angular_speed(self._speed(rpm, speed_kmh))
         if self.weights is not None:
             raise inputs.faulty("share_for", "is undefined", "leave out the weights", AbsentError)
-        whole = self.replace(share=1.0)
-        largest = max(weight.amount for weight in whole.unbalances) * omega**2
+        largest = max(weight.amount for weight in self.replace(share=1.0).unbalances)
         if not largest:
-            raise inputs.faulty("share_for", "is undefined", "nothing makes a hammer blow")
-        return limit / largest
+            raise inputs.faulty("share_for", "is undefined", "no piston has a mass", AbsentError)
+        share = limit / largest / omega / omega if omega else math.inf
+        if not share <= _core.LARGEST:
+            name, speed = ("rpm", rpm) if speed_kmh is None else ("speed_kmh", speed_kmh)
+            raise inputs.rejected(name, speed, "give a speed at which the wheels turn")
+        return share
 
     @property
     def table(self) -> Table:
-        """Balance weights of each wheel, the unbalance left, and the speed at which it lifts."""
+        """Counterweights of each wheel, the unbalance left, and the speed at which it lifts."""
         by_wheel: list[tuple[float | None, float | None]] = []
         for of_axle in self._balancing:
             for z in self.wheel_z:
@@ -436,8 +449,14 @@ class Locomotive(Framed, Input):
             columns.append(Column("lifts at", self.lifting_rpm, "rpm"))
             if self.wheel_diameter is not None:
                 columns.append(Column("lifts at", self.lifting_rpm * self._kmh_per_rpm, "km/h"))
-        title = f"{labels.one_line(self.name) or 'Locomotive'}: balance weights and what they leave"
+        title = f"{labels.one_line(self.name) or 'Locomotive'}: counterweights and what they leave"
         return Table(title, tuple(columns))
+
+
+def _exact(angle: Fraction) -> str:
+    """Return an angle less whole turns, as exact as the core takes it, degrees."""
+    reduced = angle % 360
+    return str(reduced) if reduced.denominator <= LONGEST_FRACTION else repr(float(reduced))
 
 
 def _shares(share: ArrayLike, axles: int) -> tuple[float, ...]:
