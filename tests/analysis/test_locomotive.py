@@ -201,9 +201,12 @@ def test_the_engine_has_what_the_locomotive_pushes(seed: int) -> None:
     # Vertical force of all wheels: that of the engine without pistons.
     bare = [one.replace(reciprocating_mass=0.0) for one in engine.cylinders]
     turning = engine.replace(cylinder=bare, rotating_mass=engine.rotating_mass)
-    upward = turning.waveform(150, forces.theta_deg).force[:, 1]
-    blows = -np.asarray(forces.hammer_blow).sum(axis=0)
-    np.testing.assert_allclose(blows, upward, atol=1e-9 * UNIT)
+    without_pistons = turning.waveform(150, forces.theta_deg)
+    blows = -np.asarray(forces.hammer_blow).reshape(len(locomotive.axle_x), 2, -1).sum(axis=1)
+    np.testing.assert_allclose(blows.sum(axis=0), without_pistons.force[:, 1], atol=1e-9 * UNIT)
+    # Each axle at its own place, they pitch the locomotive.
+    levers = np.array(locomotive.axle_x) - locomotive.axle_x[locomotive.driving[0] - 1]
+    np.testing.assert_allclose(levers @ blows, without_pistons.torque, atol=1e-9 * UNIT)
 
 
 @in_turn("seed", range(16))
