@@ -162,7 +162,6 @@ KINDS: dict[str, list[Any]] = {
     "driving": [1],
     "hammer_blow": [1000.0],
     "inclination_deg": [5.0],
-    "share": [0.5],
     "speed_kmh": [60.0],
     "vertical_deg": [90.0],
     "weights: Iterable[Iterable[Unbalance]] | None": [[[cp.Unbalance(20, -0.3, 180, pin=1)]]],
