@@ -14,8 +14,11 @@ from crankpin.analysis.design.design import design as design
 from crankpin.analysis.exercises import exercise as exercise
 from crankpin.analysis.firing import throws as throws
 from crankpin.analysis.flywheel import flywheel as flywheel
+from crankpin.analysis.foundation_table import foundation_table as foundation_table
 from crankpin.analysis.gas_exchange import PortTiming as PortTiming
 from crankpin.analysis.gas_exchange import ValveTiming as ValveTiming
+from crankpin.analysis.guide_moments import guide_moments as guide_moments
+from crankpin.analysis.locomotive import Locomotive as Locomotive
 from crankpin.analysis.mounts.design_mounts import design_mounts as design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain as Powertrain
 from crankpin.analysis.operating_map import operating_map as operating_map

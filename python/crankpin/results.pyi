@@ -19,6 +19,9 @@ from crankpin.analysis.exercises import Exercise as Exercise
 from crankpin.analysis.explain import Explanation as Explanation
 from crankpin.analysis.firing import Firing as Firing
 from crankpin.analysis.flywheel import Flywheel as Flywheel
+from crankpin.analysis.foundation_table import FoundationTable as FoundationTable
+from crankpin.analysis.guide_moments import GuideMoments as GuideMoments
+from crankpin.analysis.locomotive_forces import LocomotiveForces as LocomotiveForces
 from crankpin.analysis.mounts.active import Cancellation as Cancellation
 from crankpin.analysis.mounts.active import DrivenResponse as DrivenResponse
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw as AdaptiveLaw

@@ -75,6 +75,10 @@ def files() -> list[str]:
 
 
 AUTO = {"orders": "auto"}
+LOCOMOTIVE = cp.Locomotive(
+    CYLINDER, z=[-0.1, 0.0, 0.1], throws_deg=[0, 120, 240], wheel_z=[-0.3, 0.3], share=0.5,
+    wheel_diameter=1.7, wheel_load=70e3,
+)  # fmt: skip
 SINGLE = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1)
 SIX = [0.5, 0.51, 0.49, 0.5, 0.505, 0.495, 0.5]
 
@@ -150,7 +154,20 @@ KINDS: dict[str, list[Any]] = {
     "window_deg": [(-120.0, -40.0)],
     "x": [0.1, "rpm"],
     "y": [0.1],
+    "Locomotive.z": [[-0.1, 0.0, 0.1]],
     "z": [0.1, ENGINE.reference_z, [0.0, 0.0, 0.1, 0.1, 0.2, 0.2], 1e-4, [0.0, 0.4]],
+    # Locomotives.
+    "axle_x": [[0.0, 1.9]],
+    "coupling": [[cp.Unbalance(20, -0.9, 180, pin=1)]],
+    "driving": [1],
+    "hammer_blow": [1000.0],
+    "inclination_deg": [5.0],
+    "speed_kmh": [60.0],
+    "vertical_deg": [90.0],
+    "weights: Iterable[Iterable[Unbalance]] | None": [[[cp.Unbalance(20, -0.3, 180, pin=1)]]],
+    "wheel_diameter": [1.7],
+    "wheel_load": [70e3],
+    "wheel_z": [[-0.3, 0.3]],
     # Orders, speeds, amplitudes.
     "amount": [0.01],
     "amount_g_mm": [[120, 80]],
@@ -330,7 +347,10 @@ KINDS: dict[str, list[Any]] = {
     "plot.quantity": ["moment", "main", "velocity"],
     "objectives": ["total.moment.peak"],
     "quantities": ["force"],
-    "quantity": ["moment", "main", "velocity", "body_force", "crank_torque"],
+    "quantity": [
+        *("moment", "main", "velocity", "body_force", "crank_torque"),
+        *("vertical_force", "h_moment", "hammer_blow"),
+    ],
     "row_units": [["", ""]],
     "header": [["a", "b"]],
     "labels": [["a", "b"]],
@@ -363,6 +383,7 @@ KEYWORDS: dict[str, dict[str, Any]] = {
 }
 SEEDS: list[Any] = [
     *(LOAD, ENGINE.with_loads([LOAD]).balance(1000.0).force),
+    LOCOMOTIVE,
     *(ENGINE, ENGINE.with_cycle(None), CYLINDER, CYCLE, MAP, POWERTRAIN, *MOUNTS, SHAKER),
     cp.sweep(ENGINE, rpm=[1000.0, 2000.0], orders=[1, 2]),
     *(ENGINE.firing(), two_stroke(), ENGINE.closed_form(1)),

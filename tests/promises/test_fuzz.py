@@ -71,6 +71,7 @@ UNDEFINED = {
 HOLD_ANYTHING = {
     *("AdaptiveLaw", "BalancerOption", "BobWeight", "Card", "Choice", "Design", "Match"),
     *("MountDesign", "MountModes", "MountRobustness", "OrderBalance", "OrderResponse"),
+    *("FoundationTable", "GuideMoments", "LocomotiveForces"),
     *("PointMotion", "Quantity", "RollAxes", "StarDiagram", "StaticState", "Table"),
     *("TorsionalExcitation", "VelocityFeedback", "Verdicts", "WorstForce"),
 }

@@ -234,6 +234,7 @@ INPUTS = (
     cp.ValveTiming,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
+    cp.Locomotive,
 )  # fmt: skip
 
 
@@ -668,6 +669,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Explanation",
         "Flywheel",
         "TurningMoment",
+        "FoundationTable",
+        "GuideMoments",
+        "Locomotive",
         "Match",
         "Quantity",
         "Table",

@@ -87,6 +87,14 @@ SHAKER = cp.Actuator(
 )  # fmt: skip
 
 
+LOCOMOTIVE = cp.Locomotive(
+    cp.Cylinder(0.3, 2.4, 300.0), z=[-0.35, 0.35], throws_deg=[0, 90], wheel_z=[-0.8, 0.8],
+    share=0.6, rotating_mass=120, wheel_diameter=1.7, axle_x=[0.0, 1.9], driving=2,
+    coupling=[cp.Unbalance(20, -0.9, 180, pin=1), cp.Unbalance(20, 0.9, 180, pin=2)],
+    wheel_load=[70e3] * 4, name="Two cylinders",
+)  # fmt: skip
+
+
 @cache
 def cancelled() -> cp.results.Cancellation:
     return MOUNTED.response([900.0, 3000.0], orders=[2, 4]).cancel(SHAKER, [(0, 0.3, 0)], orders=2)
@@ -252,6 +260,14 @@ OBJECTS = Made(
         "DrivenResponse": lambda: cancelled().response,
         "AdaptiveLaw": lambda: cancelled().adaptive(delay=1e-3),
         "VelocityFeedback": lambda: MOUNTED.velocity_feedback(SHAKER),
+        "FoundationTable": lambda: cp.foundation_table(
+            V6.with_shafts([cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)])]), [600, 900]
+        ),
+        "FoundationTable at one speed": lambda: cp.foundation_table(ODD, 600, orders=[1, 4]),
+        "GuideMoments": lambda: cp.guide_moments(V6, [600, 900], orders=[1, 2], length=0.5),
+        "GuideMoments, fired": lambda: cp.guide_moments(FIRED, 3000, orders=[0.5, 1, 2]),
+        "Locomotive": lambda: LOCOMOTIVE,
+        "LocomotiveForces": lambda: LOCOMOTIVE.forces(speed_kmh=60),
         "MountDesign": lambda: cp.design_mounts(
             MOUNTED, vary="stiffness", bounds={"stiffness": (5e4, 4e5)}
         ),

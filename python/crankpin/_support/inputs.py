@@ -311,6 +311,24 @@ def angular_speed(rpm: object) -> float:
     return _core.angular_speed(number("rpm", rpm))
 
 
+def speeds(rpm: ArrayLike) -> float | NDArray[np.float64]:
+    """Return a crank speed, or a copy of several, rpm; each is one that engines can have."""
+    if not is_listed(rpm):
+        angular_speed(rpm)
+        return number("rpm", rpm)
+    several = vector("rpm", rpm)
+    if not len(several):
+        raise rejected("rpm", rpm, "give a crank speed, or several")
+    for speed in several.tolist():
+        angular_speed(speed)
+    return several.copy()
+
+
+def fastest(rpm: float | NDArray[np.float64]) -> float:
+    """Return the highest of one or several speeds."""
+    return float(np.max(rpm))
+
+
 # --- words --------------------------------------------------------------------------------------
 
 

@@ -170,6 +170,41 @@ EXCITATIONS = {
 }  # fmt: skip
 """Name of a quantity of a torsional excitation → its entry."""
 
+_WAYS = {"horizontal": "H", "vertical": "V"}
+FOUNDATION = {
+    kind.name: kind
+    for kind in (
+        Kind(f"{way}_{word}", f"{way} {word}", (f"|{letter}_{symbol}|",), (way,), unit,
+             dims=("compensators",))
+        for word, letter, unit in (("force", "F", "N"), ("couple", "M", "N·m"))
+        for way, symbol in _WAYS.items()
+    )
+}  # fmt: skip
+"""Name of a quantity of a foundation table → its entry."""
+
+GUIDES = {
+    kind.name: kind
+    for kind in (
+        Kind("h_moment", "H-type guide-force moment", ("|H|",), ("about z (roll)",), "N·m"),
+        Kind("x_bimoment", "X-type guide-force bimoment", ("|X|",), ("about z (roll)",), "N·m²"),
+        Kind("x_moment", "X-type guide-force moment", ("|X|/L",), ("about z (roll)",), "N·m"),
+        Kind("cylinder_moment", "guide-force moment of a cylinder", ("|M_H|",),
+             ("about z (roll)",), "N·m", dims=("cylinder",)),
+    )
+}  # fmt: skip
+"""Name of a quantity of guide-force moments → its entry."""
+
+_BY_WHEEL: dict[str, Any] = {"dims": ("wheel",), "real": True}
+OF_WHEELS = {
+    kind.name: kind
+    for kind in (
+        Kind("hammer_blow", "hammer blow", ("F",), ("on the rail",), "N", **_BY_WHEEL),
+        Kind("tractive_variation", "variation of tractive effort", ("F",), ("forwards",), "N"),
+        Kind("swaying_couple", "swaying couple", ("M",), ("about the vertical",), "N·m"),
+    )
+}
+"""Name of a quantity of a locomotive → its entry."""
+
 OF_POINTS = {
     name: kind._replace(components=("largest",), real=True) for name, kind in LOADS.items()
 }

@@ -64,6 +64,18 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
     return parts
 
 
+def of_cylinders(whole: Balance, torque: str) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+    """Return a torque that each cylinder makes, by order, and the bounds of its rounding errors.
+
+    Both of shape (n_cylinders, n_orders).
+    """
+    parts = contributions(whole, torque)[: len(whole.engine)]
+    return (
+        np.concatenate([part.phasors for part in parts]),
+        np.stack([part.zero_bound for part in parts]),
+    )
+
+
 def phasors(result: Balance, quantity: str) -> NDArray[np.complex128]:
     """Return the parts of a balance's quantity, as of a :class:`Contribution`."""
     values = getattr(result, quantity)

@@ -160,8 +160,10 @@ def crank_angle(theta_deg: object) -> float:
 
 
 def direction(degrees: NDArray[np.float64] | float) -> NDArray[np.complex128]:
-    """Return unit vectors at these angles from +x, x + iy."""
-    return np.asarray(np.exp(1j * np.radians(degrees)))
+    """Return unit vectors at these angles from +x, x + iy; along the axes exactly."""
+    quarters, rest = np.divmod(degrees, 90.0)
+    of_quarters = np.array([1.0, 1.0j, -1.0, -1.0j])[np.mod(quarters, 4.0).astype(int)]
+    return np.asarray(of_quarters * np.exp(1j * np.radians(rest)))
 
 
 def assumed_bores(engine: Engine) -> NDArray[np.float64]:

@@ -435,7 +435,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         return values[tuple(places.get(d, slice(None)) for d in dims)]
 
     def _part(self, part: str) -> Self:
-        if self.name not in QUANTITIES or (self.kind.axes and part not in self.parts):
+        if part not in self.parts and (self.name not in QUANTITIES or self.kind.axes):
             raise self._absent(part, "give torque or crank_torque, which have it")
         return changed(self, name=f"{self.name}.{part}")
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import EXCITATIONS
+from crankpin._support.quantities import EXCITATIONS, PART_WORDS
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
-from crankpin.analysis.contributions import contributions
+from crankpin.analysis.contributions import of_cylinders
 from crankpin.analysis.labelled import Labelled
 from crankpin.analysis.request import engine_core
 from crankpin.model.computed_cycles import area
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
+GAS_AND_INERTIA = tuple(PART_WORDS)
+"""Parts of a torque of a cylinder."""
 
 
 class TorsionalExcitation(Labelled):
@@ -60,7 +62,7 @@ class TorsionalExcitation(Labelled):
         return tuple(f"{quantity}.{part}" for part in self._named_parts(quantity))
 
     def _named_parts(self, quantity: str) -> tuple[str, ...]:
-        return ("gas", "inertia") if quantity == "crank_torque" else ()
+        return GAS_AND_INERTIA if quantity == "crank_torque" else ()
 
     def _at_order(self, order: Order) -> TorsionalExcitation:
         one: TorsionalExcitation = self._once(order, lambda: changed(self, orders=(order,)))
@@ -69,19 +71,10 @@ class TorsionalExcitation(Labelled):
     @functools.cached_property
     def _phasors(self) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         """Phasors of gas: (n_cylinders, n_orders), and of masses: (…, n_cylinders, n_orders)."""
-        speeds = np.ravel(self.rpm)
-        fastest = float(speeds[np.abs(speeds).argmax()])
+        speeds, fastest = np.ravel(self.rpm), inputs.fastest(self.rpm)
         with suppressed():  # Warned of where the excitation was made.
             balance = self.engine.balance(fastest, orders=self.orders)
-        gas, inertia = (
-            np.concatenate(
-                [
-                    part.phasors
-                    for part in contributions(balance, f"crank_torque.{of}")[: len(self.engine)]
-                ]
-            )
-            for of in ("gas", "inertia")
-        )
+        gas, inertia = (of_cylinders(balance, f"crank_torque.{of}")[0] for of in GAS_AND_INERTIA)
         # Torque of masses has the square of the speed as a factor.
         scales = (speeds / fastest) ** 2 if fastest else np.ones(len(speeds))
         return gas, np.multiply.outer(scales, inertia) if self.coords else inertia
@@ -298,19 +291,14 @@ def torsional_excitation(
     array([73.1, 32.6, 48.7])
     """
     engine_core(engine)
-    cycles = engine.cycles
-    chosen = orders
-    if chosen is None:
-        step = 1 if cycles is None or engine.strokes == 2 else 0.5
-        chosen = [step * k for k in range(1, round(HIGHEST / step) + 1)]
-    several = inputs.is_listed(rpm)
-    speeds = inputs.vector("rpm", rpm) if several else np.array([inputs.number("rpm", rpm)])
-    if not len(speeds):
-        raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
+    chosen = orders_up_to(engine, HIGHEST) if orders is None else orders
+    speeds = inputs.speeds(rpm)
     explicit = inputs.explicit_half_orders(chosen)
-    fastest = float(speeds[np.abs(speeds).argmax()])
-    balance = engine.balance(fastest, orders=explicit)
-    for speed in speeds.tolist():
-        with suppressed():  # Warned of at the highest of them.
-            inputs.angular_speed(speed)
-    return TorsionalExcitation(engine, speeds.copy() if several else balance.rpm, balance.orders)
+    balance = engine.balance(inputs.fastest(speeds), orders=explicit)
+    return TorsionalExcitation(engine, speeds, balance.orders)
+
+
+def orders_up_to(engine: Engine, highest: int) -> list[float]:
+    """Return all orders up to one, halves among them for a fired four-stroke."""
+    step = 1 if engine.cycles is None or engine.strokes == 2 else 0.5
+    return [step * k for k in range(1, round(highest / step) + 1)]
