@@ -60,6 +60,7 @@ STEM_DISTANCE = 6.0
 ZEROS = "crankpin zeros"
 """Marks the hollow circles of a series by their gid."""
 ZERO = "exactly zero"
+OVER_ORDER = "order (multiples of crank speed)"
 
 
 def spectrum(
@@ -102,7 +103,7 @@ def spectrum(
         stems(ax, orders, peaks[:, k], text, styles[k])
     beside_each_other(ax)
     scale_spectrum(ax, logarithmic=logarithmic, orders_given=orders_given)
-    label_x(ax, "order (multiples of crank speed)")
+    label_x(ax, OVER_ORDER)
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)
     return ax

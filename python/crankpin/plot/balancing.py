@@ -12,7 +12,8 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.layout import add_legend, axes_or_new, note_zero, set_title
+from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis
 from crankpin.plot.style import (
     MARKERS,
     SERIES,
@@ -25,7 +26,6 @@ from crankpin.plot.style import (
     series,
     write_at_mark,
 )
-from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, number, plain_text, rounded
 
 if TYPE_CHECKING:
@@ -105,9 +105,8 @@ def _balance_shafts(
             marks |= {"markerfacecolor": background(ax), "markeredgewidth": 1.5}
         named = f"{label}, {text}" if label else text
         ax.plot(values, rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
-    numeric(ax.xaxis)
     kind = QUANTITIES[name]
-    label_x(ax, units.headed(f"{kind.words} over ω²", kind.unit_over_square))
+    x_axis(ax, units.headed(f"{kind.words} over ω²", kind.unit_over_square))
     add_legend(ax)
     return ax
 
@@ -180,8 +179,7 @@ def _balancers(
             child.set_visible(False)
     if alone and not drawn:
         note_zero(ax)
-    numeric(ax.xaxis)
-    label_x(ax, "residual, % (nothing fitted: 100)")
+    x_axis(ax, "residual, % (nothing fitted: 100)")
     add_legend(ax, last=REACHED)
     return ax
 
@@ -256,16 +254,14 @@ def _bob_weight(
     longest, shortest = result.half_axes(name, factors)
     axes_of = result.half_axes(name, result.factor)
     set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
-    curves = {"longest": longest, "shortest": np.abs(shortest)}
-    for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
-        full = f"{label}: {text}" if label else text
-        ax.plot(factors, values, gid=SERIES, label=full, **look)
+    of = f"{label}: " if label else ""
+    half_axes = {f"{of}longest": longest, f"{of}shortest": np.abs(shortest)}
+    draw_curves(ax, factors, half_axes, style)
     ax.axvline(result.factor, color=muted(ax, 0.5), linewidth=0.8, zorder=1, gid="crankpin own")
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
+    x_axis(ax, "balance factor")
     ax.set_xlim(0.0, end)
-    drawn = [line.get_ydata() for line in ax.lines if line.get_gid() == SERIES]
-    from_zero(ax, max(float(np.max(values)) for values in drawn))
+    y_label = units.headed("half axes", QUANTITIES[name].unit_over_square)
+    y_axis(ax, y_label, largest=highest(ax))
     x = np.array([result.factor, result.factor])
     ring(ax, x, np.abs(axes_of), foreground(ax), "o", "this factor")
     if lines:
@@ -273,10 +269,6 @@ def _bob_weight(
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
         for factor, direction_deg in lines:
             write_at_mark(ax, factor, 0.0, in_degrees(round(direction_deg, 1)))
-    if not any(np.any(values) for values in drawn):
-        note_zero(ax)
-    label_x(ax, "balance factor")
-    label_y(ax, units.headed("half axes", QUANTITIES[name].unit_over_square))
     add_legend(ax)
     return ax
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,9 +23,10 @@ from crankpin.plot.layout import (
     set_panel_title,
     set_title,
 )
+from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis, zero_line
 from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace, trace_by_angle
-from crankpin.plot.style import SERIES, count_series, muted, series
-from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.style import count_series, muted
+from crankpin.plot.ticks import degrees
 from crankpin.plot.words import joined, loads_of, number
 
 if TYPE_CHECKING:
@@ -104,15 +105,11 @@ def curves(
     ax = axes_or_new(ax)
     where = kind.components[0] if not kind.planar else "magnitude"
     set_title(ax, *_titles(result, f"{kind.words}, {where}"))
-    looks = series(ax, len(places), style)
-    for k, look, name in zip(places, looks, _names(load, places, label), strict=True):
-        ax.plot(result.theta_deg, values[k], gid=SERIES, label=name, **look)
-    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
-    degrees(ax.xaxis)
-    span(ax, result.theta_deg)
-    numeric(ax.yaxis)
-    label_x(ax, "crank angle θ")
-    label_y(ax, units.headed(kind.words, "N"))
+    columns = dict(zip(_names(load, places, label), values[places], strict=True))
+    draw_curves(ax, result.theta_deg, columns, style)
+    zero_line(ax)
+    x_axis(ax, "crank angle θ", result.theta_deg, by_angle=True)
+    y_axis(ax, units.headed(kind.words, "N"))
     if not values.any():
         note_zero(ax)
     add_legend(ax)
@@ -137,24 +134,19 @@ def bending(
     first = not count_series(ax)
     what = f"largest bending moment at {len(result.theta_deg)} crank angles"
     set_title(ax, *_titles(result, what))
-    for (kind, k), look in zip(cuts, series(ax, len(cuts), style), strict=True):
+    columns = {}
+    for kind, k in cuts:
         moments = result.bending(kind, crank=k)
-        largest = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
         cut = f"crank {k}" if kind == "crank" and len(cranks) > 1 else kind
-        name = ", ".join(filter(None, [label, cut if label is None or len(cuts) > 1 else ""]))
-        ax.plot(result.z, largest, gid=SERIES, label=name, **look)
-    ends = [float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES]
-    from_zero(ax, max(ends, default=0.0))
+        name = cut if label is None or len(cuts) > 1 else ""
+        columns[name] = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
+    draw_curves(ax, result.z, columns, style, label)
     if first:
-        look = {"color": muted(ax, 0.5), "linewidth": 0.8, "zorder": 1, "gid": "crankpin mains"}
+        look: dict[str, Any] = {"color": muted(ax, 0.5), "linewidth": 0.8, "zorder": 1}
+        look |= {"gid": "crankpin mains"}
         ax.vlines(result.main_z, 0.0, 1.0, transform=ax.get_xaxis_transform(), **look)
-    span(ax, result.z)
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    label_x(ax, units.Text(units.headed("z", "m"), " (lines: main bearings)"))
-    label_y(ax, units.headed("bending moment", "N·m"))
-    if not any(ends):
-        note_zero(ax)
+    x_axis(ax, units.Text(units.headed("z", "m"), " (lines: main bearings)"), result.z)
+    y_axis(ax, units.headed("bending moment", "N·m"), largest=highest(ax))
     add_legend(ax)
     return ax
 

@@ -12,10 +12,10 @@ from crankpin._support.drawing import picture
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.waveform import Waveform
+from crankpin.plot.balance import OVER_ORDER
 from crankpin.plot.layout import (
     Drawn,
     inches_of,
-    label_x,
     label_y,
     make_panels,
     note_zero,
@@ -23,8 +23,9 @@ from crankpin.plot.layout import (
     set_panel_title,
     width_for,
 )
-from crankpin.plot.style import SERIES, background, series, write
-from crankpin.plot.ticks import from_zero, numeric
+from crankpin.plot.painter import draw_curves, x_axis, y_axis
+from crankpin.plot.style import background, series, write
+from crankpin.plot.ticks import from_zero
 from crankpin.plot.waveform import dress
 from crankpin.plot.words import drawn_quantity, loads_of, nonzero_in, number, rounded, with_unit
 
@@ -141,10 +142,8 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
         write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
     ax.set_xlim(0.0, last)
     from_zero(ax, top, 1.4 if upright else 1.25)
-    numeric(ax.xaxis, whole=True)
-    numeric(ax.yaxis)
-    label_x(ax, "order (multiples of crank speed)")
-    label_y(ax, with_unit(name, peak=True))
+    x_axis(ax, OVER_ORDER, whole=True)
+    y_axis(ax, with_unit(name, peak=True))
 
 
 def _curves(ax: Axes, result: Comparison, name: str) -> None:
@@ -158,7 +157,7 @@ def _curves(ax: Axes, result: Comparison, name: str) -> None:
         if planar:
             picture(waveform, ax, kind="orbit", quantity=name, label=label)
         else:
-            ax.plot(theta, getattr(waveform, name), gid=SERIES, label=label, **series(ax, 1)[0])
+            draw_curves(ax, theta, {label: getattr(waveform, name)}, {})
     if planar:
         _square(ax)
     else:

@@ -20,8 +20,6 @@ from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
     inches_of,
-    label_x,
-    label_y,
     make_panels,
     reject_figure,
     set_figure_title,
@@ -29,9 +27,9 @@ from crankpin.plot.layout import (
     set_title,
     width_for,
 )
+from crankpin.plot.painter import x_axis, y_axis, zero_line
 from crankpin.plot.plane import label_plane, scale_plane
 from crankpin.plot.style import SERIES, muted, series
-from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
@@ -144,17 +142,15 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
     at = np.array([pin.z for pin in pins])
     height = np.full(len(pins), PINS_HEIGHT * largest)
     _needles(ax, at, height, [pin.pin_deg for pin in pins], muted(ax), "crankpin pins")
-    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1, gid="crankpin axis")
+    zero_line(ax, gid="crankpin axis")
     along = np.append([z for _, z in result.places], at)
     room = 0.08 * float(np.ptp(along)) or 0.1
     ax.set_xlim(float(along.min()) - room, float(along.max()) + room)
     ax.set_ylim(1.8 * PINS_HEIGHT * largest, 1.25 * largest)
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
+    x_axis(ax, units.headed("z", "m"))
+    y_axis(ax, units.headed("mass·radius", "kg·m"))
     ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= 1.25 * largest])
     ax.text(0.01, 0.02, "crankpins", transform=ax.transAxes, fontsize="small", color=muted(ax))
-    label_x(ax, units.headed("z", "m"))
-    label_y(ax, units.headed("mass·radius", "kg·m"))
 
 
 def _needles(

@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 from crankpin._support import inputs, units
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, keep_apart, label_x, label_y, make_panels, note_zero
+from crankpin.plot.painter import name_rows, x_axis
 from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
 from crankpin.plot.style import (
     DASHES,
@@ -29,8 +30,8 @@ from crankpin.plot.style import (
     series,
     write_at_mark,
 )
-from crankpin.plot.ticks import RoundLocator, degrees, magnitude_scale, numeric, span
-from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in, number, plain_text
+from crankpin.plot.ticks import RoundLocator, magnitude_scale
+from crankpin.plot.words import drawn_quantity, in_degrees, joined, nonzero_in, number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -90,7 +91,7 @@ def bundle_of(
         (look,) = series(ax, 1, options)
         return Bundle([Curve((), look, label)], [], None)
     texts = [values_of(sweep, dim, words) for dim in others]
-    names = [", ".join(filter(None, [label, *parts])) for parts in itertools.product(*texts)]
+    names = [joined(label, *parts) for parts in itertools.product(*texts)]
     if len(others) == 1 and (others[0] == "engine" or len(places) <= DISTINCT):
         return Bundle(*engine_looks(ax, names, sizes, options), None)
     n_rest = len(places) // lengths[0]
@@ -227,17 +228,14 @@ def _draw(
             _dots(panel, words.names, heights, bundle.curves)
             continue
         values = np.asarray(sweep.coords[along], dtype=np.float64)
-        span(panel, values)
+        label = dimension(along) if row == len(panels) - 1 else ""
+        x_axis(panel, label, values, by_angle=along.endswith("_deg"))
         lines(panel, values, heights, bundle.curves)
         # Every peak grows with the square of speed: the least is at the lowest.
         least = row == 0 and "rpm" not in sweep.coords
         mark(panel, along, values, heights, bundle.curves, least=least)
     for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
         _scale(of_row, heights, quantity, along, row_of_picture.name, logarithmic=logarithmic)
-    if along != "engine":
-        for panel in panels[-1]:
-            label_x(panel, dimension(along))
-            (degrees if along.endswith("_deg") else numeric)(panel.xaxis)
     if bundle.scale:
         colour_scale(panels, sweep, bundle.scale)
     return bundle
@@ -270,8 +268,7 @@ def _dots(
         look |= curve.style | {"linestyle": ""}
         heights = peaks[:, *curve.place]
         ax.plot(heights, rows, gid=SERIES, label=curve.name or "_", clip_on=False, **look)
-    ax.set_yticks(rows, [plain_text(name) for name in names])
-    ax.set_ylim(len(names) - 0.5, -0.5)
+    name_rows(ax, names)
 
 
 def _scale(

@@ -15,17 +15,9 @@ from crankpin.analysis.turning_moment import TurningMomentAreas
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import Traces
-from crankpin.plot.layout import (
-    Drawn,
-    add_legend,
-    axes_or_new,
-    label_x,
-    label_y,
-    make_panels,
-    set_title,
-)
-from crankpin.plot.style import SERIES, count_series, muted, series
-from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.layout import Drawn, add_legend, axes_or_new, make_panels, set_title
+from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis
+from crankpin.plot.style import count_series, muted
 from crankpin.plot.words import joined, loads_of
 
 if TYPE_CHECKING:
@@ -36,6 +28,8 @@ if TYPE_CHECKING:
 
 SIDES = ("C0", "C3")
 """Colours of areas above the mean and below it."""
+FROM_FIRING = "crank angle after the firing top dead centre"
+PRESSURE = units.headed("absolute pressure", "bar")
 
 
 @picture.register(Cycle)
@@ -65,19 +59,12 @@ def _cycle(
     theta = np.append(result.theta_deg[result.theta_deg < end], end)
     pressure = np.append(result.pressure[: len(theta) - 1], result.pressure[0]) / 1e5
     where = theta if cylinder is None else _swept(cylinder, theta)
-    (look,) = series(ax, 1, style)
-    ax.plot(where, pressure, gid=SERIES, label=name, **look)
+    draw_curves(ax, where, {name: pressure}, style)
     if cylinder is None:
-        degrees(ax.xaxis)
-        span(ax, theta)
-        label_x(ax, "crank angle after the firing top dead centre")
+        x_axis(ax, FROM_FIRING, theta, by_angle=True)
     else:
-        numeric(ax.xaxis)
-        label_x(ax, units.headed("volume swept", "cm³"))
-    numeric(ax.yaxis)
-    highest = max(float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES)
-    from_zero(ax, highest)
-    label_y(ax, units.headed("absolute pressure", "bar"))
+        x_axis(ax, units.headed("volume swept", "cm³"))
+    y_axis(ax, PRESSURE, largest=highest(ax))
     if not first:
         add_legend(ax)
     return ax
@@ -99,28 +86,26 @@ def _traces(
     named = labels.one_line(result.name)
     set_title(ax, "Cylinder pressure", *([named] if first and named else []))
     _band(result, ax, optional_text("label", label) or f"mean of {len(result)} cycles", style)
-    label_x(ax, "crank angle after the firing top dead centre")
     add_legend(ax)
     return ax
 
 
-def _band(result: Traces, ax: Axes, name: str, style: dict[str, object]) -> None:
+def _band(
+    result: Traces, ax: Axes, name: str, style: dict[str, object], *, is_lowest: bool = True
+) -> None:
     """Draw the mean of cycles in the band of all."""
     end = result.theta_deg[0] + result.period_deg
     inside = result.theta_deg < end
     theta = np.append(result.theta_deg[inside], end)
     rows = np.column_stack([result.pressure[:, inside], result.pressure[:, :1]]) / 1e5
-    (look,) = series(ax, 1, style)
-    (line,) = ax.plot(theta, rows.mean(axis=0), gid=SERIES, label=name, **look)
+    (line,) = draw_curves(ax, theta, {name: rows.mean(axis=0)}, style)
     if len(result) > 1:
         least, most = rows.min(axis=0), rows.max(axis=0)
         band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
         ax.fill_between(theta, least, most, label="least to largest", **band)
-    degrees(ax.xaxis)
-    span(ax, theta)
-    numeric(ax.yaxis)
-    from_zero(ax, max(float(rows.max()), *(float(end) for end in ax.dataLim.intervaly)))
-    label_y(ax, units.headed("absolute pressure", "bar"))
+    if is_lowest:
+        x_axis(ax, FROM_FIRING, theta, by_angle=True)
+    y_axis(ax, PRESSURE, largest=max(float(rows.max()), float(ax.dataLim.y1)))
 
 
 @picture.register(PreparedTrace)
@@ -142,12 +127,8 @@ def _prepared(
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
     before, after = result.stages[0], result.traces
     pressures = panels.axes[0, 0]
-    _band(
-        after,
-        pressures,
-        ", ".join(filter(None, [optional_text("label", label), "prepared"])),
-        style,
-    )
+    name = joined(optional_text("label", label) or "", "prepared")
+    _band(after, pressures, name, style, is_lowest=panels.single)
     thin: dict[str, Any] = {"color": muted(pressures), "linewidth": 0.9, "linestyle": "--"}
     measured = before.pressure.mean(axis=0)
     pressures.plot(before.theta_deg, measured / 1e5, gid="", label="as measured", **thin)
@@ -156,17 +137,13 @@ def _prepared(
     add_legend(pressures)
     if len(panels.axes) > 1:
         changes = panels.axes[1, 0]
-        (look,) = series(changes, 1, style)
         theta = after.theta_deg
         at_these = np.interp(theta, before.theta_deg, measured, period=after.period_deg)
         change = (after.pressure.mean(axis=0) - at_these) / 1e5
-        changes.plot(theta, change, gid=SERIES, label="change", **look)
+        draw_curves(changes, theta, {"change": change}, style)
         changes.axhline(0.0, **thin)
-        numeric(changes.yaxis)
-        label_y(changes, units.headed("change", "bar"))
-        span(changes, theta)
-        degrees(changes.xaxis)
-        label_x(changes, "crank angle after the firing top dead centre")
+        x_axis(changes, FROM_FIRING, theta, by_angle=True)
+        y_axis(changes, units.headed("change", "bar"))
     names = map(units.shown, result.names[1:])
     steps = [name.partition(" (")[0].partition(": ")[0] for name in names]
     panels.set_title(f"Cylinder pressure: {result.title}", joined(*steps))
@@ -210,22 +187,16 @@ def _flywheel(
     for panel, (lines, level, name, quantity) in zip(
         panels.axes[:, 0], drawn[-len(panels.axes) :], strict=True
     ):
-        looks = series(panel, len(lines), style)
-        for (text, values), look in zip(lines.items(), looks, strict=True):
-            named = ", ".join(filter(None, [label, text]))
-            panel.plot(theta, values, gid=SERIES, label=named, **look)
+        draw_curves(panel, theta, lines, style, label)
         thin: dict[str, Any] = {"color": muted(panel), "linewidth": 0.8, "linestyle": "--"}
         panel.plot(theta, level, gid="", label=name, **thin)
         if name == "load":
             _shade(panel, theta, [*lines.values()][-1] - level, level)
         else:
             _mark_extremes(panel, theta, result.speed_rpm)
-        numeric(panel.yaxis)
-        label_y(panel, quantity)
+        y_axis(panel, quantity)
         add_legend(panel)
-    span(panels.axes[-1, 0], theta)
-    degrees(panels.axes[-1, 0].xaxis)
-    label_x(panels.axes[-1, 0], "crank angle")
+    x_axis(panels.axes[-1, 0], "crank angle", theta, by_angle=True)
     irregularity = f"irregularity {100.0 * result.irregularity:.3g} %"
     panels.set_title(result.title, joined(irregularity, loads_of(result)))
     return panels.drawn
@@ -246,15 +217,12 @@ def _areas(
     crossings = np.arange(len(result.levels))
     colors = np.where(result.areas > 0.0, *SIDES)
     ax.bar(crossings[1:] - 0.5, result.areas, 1.0, color=colors, alpha=0.2, gid="")
-    (look,) = series(ax, 1, style)
     name = optional_text("label", label) or "energy"
-    ax.plot(crossings, result.levels, gid=SERIES, label=name, marker=".", **look)
+    draw_curves(ax, crossings, {name: result.levels}, style, marker=".")
     _mark_extremes(ax, crossings, result.levels)
     set_title(ax, result.table.title, f"fluctuation of energy {result.energy:.4g} J")
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    label_x(ax, "crossing of torque and its mean")
-    label_y(ax, units.headed("work", "J"))
+    x_axis(ax, "crossing of torque and its mean")
+    y_axis(ax, units.headed("work", "J"))
     add_legend(ax)
     return ax
 

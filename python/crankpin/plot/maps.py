@@ -265,10 +265,7 @@ def _label_all(panels: Panels, along: str, up: str, rows: Rows) -> None:
     """Name the columns above them, the rows and axes on the left and below."""
     for (row, column), panel in np.ndenumerate(panels.axes):
         for axis, dim in ((panel.xaxis, along), (panel.yaxis, up)):
-            if dim.endswith("_deg"):
-                degrees(axis)
-            else:
-                numeric(axis, whole=dim == "order")
+            degrees(axis) if dim.endswith("_deg") else numeric(axis, whole=dim == "order")
         if row == len(panels.axes) - 1:
             label_x(panel, dimension(along))
         if not column:

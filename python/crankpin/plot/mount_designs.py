@@ -18,15 +18,14 @@ from crankpin.plot.layout import (
     add_legend,
     axes_or_new,
     equal_scales,
-    label_x,
     label_y,
     make_panels,
     set_panel_title,
     set_title,
 )
 from crankpin.plot.mounts import AT
+from crankpin.plot.painter import draw_curves, name_rows, x_axis, y_axis
 from crankpin.plot.style import SERIES, foreground, muted, series
-from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, rounded
 
 if TYPE_CHECKING:
@@ -54,7 +53,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     ax = axes_or_new(ax)
     at = AT if result.powertrain._varies else None
     pair = [powertrain.modes(at).frequency for powertrain in (result.powertrain, result.fitted)]
-    rows = np.arange(1, 7)
+    rows = np.arange(6)
     looks = series(ax, 2, {"marker": "o", "linestyle": "", "markersize": 6.0} | style)
     link: dict[str, Any] = {"color": muted(ax, 0.4), "linewidth": 1.2, "zorder": 1}
     ax.hlines(rows, pair[0], pair[1], **link)
@@ -67,11 +66,8 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
         band: dict[str, Any] = {"color": muted(ax, 0.12), "linewidth": 0.0, "zorder": 0}
         ax.axvspan(low, high, label="modes between", **band)
         largest = max(largest, high)
-    ax.set_yticks(rows, [f"mode {k}" for k in rows])
-    ax.set_ylim(6.6, 0.4)
-    numeric(ax.xaxis)
-    from_zero(ax, largest, name="x")
-    label_x(ax, "natural frequency, Hz")
+    name_rows(ax, [f"mode {k + 1}" for k in rows])
+    x_axis(ax, "natural frequency, Hz", largest=largest)
     merits = zip(result.names, result.before, result.after, result.limits, strict=True)
     changes = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
     missed = "" if result.reached else "requirements not reached"
@@ -140,14 +136,10 @@ def _designs(
         label = of_all or f"{len(result)} designs"
         ax.plot(speeds, values, label="" if place else label, **thin)
     nominal = peaks(chosen)
-    (look,) = series(ax, 1, {"linewidth": 2.2, "linestyle": "-"} | style)
-    ax.plot(speeds, nominal, gid=SERIES, label=f"design {chosen}", **look)
-    span(ax, speeds)
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    from_zero(ax, max(largest, float(nominal.max())))
-    label_x(ax, "crank speed, rpm")
-    label_y(ax, units.headed("peak", "N"))
+    bold_line = {"linewidth": 2.2, "linestyle": "-"} | style
+    draw_curves(ax, speeds, {f"design {chosen}": nominal}, bold_line)
+    x_axis(ax, "crank speed, rpm", speeds)
+    y_axis(ax, units.headed("peak", "N"), largest=max(largest, float(nominal.max())))
     words = "force on the body" if name is None else f"force of mount {name}"
     which = "all orders" if wanted is None else f"order {wanted}"
     set_title(
@@ -175,7 +167,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
         causes.append(("mass and inertia", result.mass_bounds))
     if result.cg:
         causes.append(("centre of gravity", result.cg_range))
-    rows = np.arange(1, len(result.frequency) + 1)
+    rows = np.arange(len(result.frequency))
     height = 0.8 / max(len(causes), 1)
     for k, ((name, (low, high)), look) in enumerate(
         zip(causes, series(ax, len(causes), style), strict=True)
@@ -186,13 +178,9 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     mark: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.0, "zorder": 3}
     ax.vlines(result.frequency, rows - 0.45, rows + 0.45, label="nominal", **mark)
     pure = zip(result.purity, result.least_purity, strict=True)
-    ax.set_yticks(rows, [f"{k + 1}:  {a:.0f} → {b:.0f} %" for k, (a, b) in enumerate(pure)])
-    ax.set_ylim(rows[-1] + 0.6, 0.4)
-    ax.tick_params(axis="y", length=0)
-    numeric(ax.xaxis)
+    name_rows(ax, [f"{k + 1}:  {a:.0f} → {b:.0f} %" for k, (a, b) in enumerate(pure)])
     ends = [high for _, (_, high) in causes] or [result.frequency]
-    from_zero(ax, float(np.max(ends)), name="x")
-    label_x(ax, "natural frequency, Hz")
+    x_axis(ax, "natural frequency, Hz", largest=float(np.max(ends)))
     label_y(ax, "purity → least found")
     name = labels.name_of(result.powertrain.engine)
     on, _, title = units.shown(result.table.title).removeprefix(name).strip().partition(": ")
@@ -303,10 +291,8 @@ def _views(
         place.plot(mounts[:, right], mounts[:, up], **squares)
         place.plot(cg[right], cg[up], marker="o", label="centre of gravity", **mark)
         equal_scales(place)
-        numeric(place.xaxis)
-        numeric(place.yaxis)
-        label_x(place, units.headed("xyz"[right], "m"))
-        label_y(place, units.headed("xyz"[up], "m"))
+        x_axis(place, units.headed("xyz"[right], "m"))
+        y_axis(place, units.headed("xyz"[up], "m"))
         if not panels.single:
             set_panel_title(place, name)
     panels.add_legend(panels.axes.flat[0].get_legend_handles_labels()[0])

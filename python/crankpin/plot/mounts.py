@@ -16,8 +16,9 @@ from crankpin.analysis.mounts.modes import COORDINATES, OF_SUBFRAME, PLACES, Mou
 from crankpin.analysis.mounts.response import READ, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL, Quantity
 from crankpin.model.supports import Receptance
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.layout import add_legend, axes_or_new, note_zero, set_title
 from crankpin.plot.maps import RANGE, cells, colour_bar
+from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis
 from crankpin.plot.style import (
     SERIES,
     background,
@@ -28,7 +29,6 @@ from crankpin.plot.style import (
     series,
     tint,
 )
-from crankpin.plot.ticks import from_zero, numeric, span
 from crankpin.plot.words import joined, number, plain_text, rounded
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ APART = 1.3
 """Ratio of frequencies within which a waterfall names one order alone."""
 AT = 20.0
 """Frequency at which a map takes stiffness that depends on it, Hz."""
+CRANK_SPEED = "crank speed, rpm"
 SEEN = 1e-3
 """Part of the largest peak, or of a whole, below which an order or a share is not drawn."""
 
@@ -97,9 +98,27 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
 class Drawn(NamedTuple):
     """A vector by order, in the unit in which it is drawn."""
 
+    result: MountResponse
     vector: Quantity
     unit: str = "N"
     factor: float = 1.0
+    orders: tuple[Order, ...] = ()
+    """Orders that are drawn."""
+
+    @property
+    def peak(self) -> units.Text:
+        """Label of an axis, or of a scale of colours."""
+        return units.headed("peak", self.unit)
+
+    @property
+    def largest(self) -> tuple[Order, ...]:
+        """Orders that are seen beside the largest, ascending, or those given to the response."""
+        orders = self.result.orders
+        if self.result._request.orders is not None:
+            return orders
+        peaks = np.reshape(self.read(None), (-1, len(orders))).max(axis=0, initial=0.0)
+        is_large = peaks > SEEN * peaks.max(initial=0.0)
+        return tuple(order for order, is_seen in zip(orders, is_large, strict=True) if is_seen)
 
     def read(self, order: Order | str | None, name: str = "peak") -> NDArray[np.float64]:
         """Return an array of the vector at an order, at ``"all"``, or of every order."""
@@ -150,7 +169,7 @@ def _response(
     name = mount if mount is None else inputs.one_of("mount", mount, result.powertrain.names)
     force = result.body_force if name is None else result.mount_force[name]
     words = "force on the body" if name is None else f"force of mount {name}"
-    return _picture(result, Drawn(force), words, ax, kind=kind, orders=orders, **style)
+    return _picture(Drawn(result, force), words, ax, kind=kind, orders=orders, **style)
 
 
 @picture.register(PointMotion)
@@ -181,19 +200,11 @@ def _point(
     if orders is None and motion.order != ALL:
         orders = motion.order
     words = plain_text(f"{name} of {motion._words}")
-    return _picture(
-        motion.result,
-        Drawn(Quantity(motion, name), *READ[name]),
-        words,
-        ax,
-        kind=kind,
-        orders=orders,
-        **style,
-    )
+    drawn = Drawn(motion.result, Quantity(motion, name), *READ[name])
+    return _picture(drawn, words, ax, kind=kind, orders=orders, **style)
 
 
 def _picture(
-    result: MountResponse,
     drawn: Drawn,
     words: str,
     ax: Axes | None,
@@ -205,14 +216,15 @@ def _picture(
 ) -> Axes:
     """Draw a vector by order, of a kind."""
     kinds = {"cuts": _cuts, "map": _map, "waterfall": _waterfall, "spectrum": _spectrum}
+    result = drawn.result
     several = bool(result.dims)
     chosen = inputs.one_of("kind", kind or ("cuts" if several else "spectrum"), kinds)
     if several == (chosen == "spectrum"):
         hint = "give one speed, as r.sel(rpm=…)" if several else "needs several speeds"
         raise inputs.rejected("kind", chosen, hint)
     ax = axes_or_new(ax)
-    drawn_orders = _orders(result, drawn, orders)
-    notes = kinds[chosen](ax, result, drawn, drawn_orders, label, style)
+    chosen_orders = drawn.largest if orders is None else inputs.explicit_half_orders(orders)
+    notes = kinds[chosen](ax, drawn._replace(orders=tuple(chosen_orders)), label, style)
     speed = "" if several else f"{number(float(result.rpm))} rpm"
     set_title(
         ax,
@@ -223,80 +235,47 @@ def _picture(
     return ax
 
 
-def _orders(result: MountResponse, drawn: Drawn, orders: Orders | None) -> tuple[Order, ...]:
-    """Return the orders given, or those that are seen beside the largest, ascending."""
-    if orders is not None:
-        return tuple(inputs.explicit_half_orders(orders))
-    if result._request.orders is not None:
-        return result.orders
-    largest = np.reshape(drawn.read(None), (-1, len(result.orders))).max(axis=0, initial=0.0)
-    is_large = largest > SEEN * largest.max(initial=0.0)
-    return tuple(order for order, is_seen in zip(result.orders, is_large, strict=True) if is_seen)
-
-
-def _cuts(
-    ax: Axes,
-    result: MountResponse,
-    drawn: Drawn,
-    orders: tuple[Order, ...],
-    label: str | None,
-    style: dict[str, Any],
-) -> str:
+def _cuts(ax: Axes, drawn: Drawn, label: str | None, style: dict[str, Any]) -> str:
     """Draw the largest orders over speed, and all together."""
-    peaks = {order: drawn.read(order) for order in orders}
-    by_size = sorted(orders, key=lambda order: -float(peaks[order].max()))
+    result = drawn.result
+    peaks = {order: drawn.read(order) for order in drawn.orders}
+    by_size = sorted(peaks, key=lambda order: -float(peaks[order].max()))
     largest = sorted(by_size if result._request.orders is not None else by_size[:MOST_CURVES])
     rpm = np.asarray(result.rpm)
     along = np.argsort(rpm, kind="stable")
     total = drawn.read(ALL)
-    first = ", ".join(filter(None, [label, "all orders"]))
-    bold: dict[str, Any] = {"color": foreground(ax), "linewidth": 1.8}
-    (look,) = series(ax, 1, bold | style)
-    ax.plot(rpm[along], total[along], label=first, gid=SERIES, **(look | {"linestyle": "-"}))
-    for order, look in zip(largest, series(ax, len(largest), style), strict=True):
-        name = ", ".join(filter(None, [label, f"order {order}"]))
-        ax.plot(rpm[along], peaks[order][along], label=name, gid=SERIES, **look)
-    span(ax, rpm)
-    _speed_axis(ax)
-    before = max((float(np.max(line.get_ydata())) for line in ax.lines), default=0.0)
-    from_zero(ax, before)
-    label_y(ax, units.headed("peak", drawn.unit))
-    if not total.any():
-        note_zero(ax)
+    bold = {"color": foreground(ax), "linewidth": 1.8} | style | {"linestyle": "-"}
+    draw_curves(ax, rpm[along], {"all orders": total[along]}, bold, label)
+    columns = {f"order {order}": peaks[order][along] for order in largest}
+    draw_curves(ax, rpm[along], columns, style, label)
+    x_axis(ax, CRANK_SPEED, rpm)
+    y_axis(ax, drawn.peak, largest=highest(ax))
     add_legend(ax)
     rest = len(result.orders) - len(largest)
     is_cut = rest and len(largest) == MOST_CURVES and result._request.orders is None
     return f"the {len(largest)} largest of {len(result.orders)} orders" if is_cut else ""
 
 
-def _map(
-    ax: Axes,
-    result: MountResponse,
-    drawn: Drawn,
-    orders: tuple[Order, ...],
-    label: str | None,
-    style: dict[str, Any],
-) -> str:
+def _map(ax: Axes, drawn: Drawn, label: str | None, style: dict[str, Any]) -> str:
     """Draw a row of cells for each order over speed; the modes' frequencies across them."""
-    rpm = _speeds(result, "map", label)
-    peaks = np.stack([drawn.read(order) for order in orders], axis=-1)[..., np.newaxis]
-    _speed_axis(ax)
-    label_y(ax, "order")
+    rpm = _speeds(drawn.result, "map", label)
+    peaks = np.stack([drawn.read(order) for order in drawn.orders], axis=-1)[..., np.newaxis]
+    x_axis(ax, CRANK_SPEED)
+    y_axis(ax, "order", whole=True)
     if not peaks.any():
         note_zero(ax)
         return ""
     largest = float(peaks.max())
     peaks = np.where(peaks > 0.0, np.maximum(peaks, RANGE * largest), 0.0)
     norm = LogNorm(RANGE * largest, largest)
-    mesh = cells([ax], rpm, orders, peaks, {"norm": norm} | style)
-    natural, note = _natural(result)
+    mesh = cells([ax], rpm, drawn.orders, peaks, {"norm": norm} | style)
+    natural, note = _natural(drawn.result)
     fine = np.linspace(max(float(rpm.min()), 1.0), float(rpm.max()), 400)
-    colour_bar([ax], mesh, units.headed("peak", drawn.unit), peaks)
+    colour_bar([ax], mesh, drawn.peak, peaks)
     limits = ax.get_ylim()
     _dashed(ax, [(fine, 60.0 * frequency / fine) for frequency in natural], "black")
     ax.set_xlim(float(rpm.min()), float(rpm.max()))
     ax.set_ylim(limits)
-    numeric(ax.yaxis, whole=True)
     return note
 
 
@@ -320,34 +299,26 @@ def _natural(result: MountResponse) -> tuple[NDArray[np.float64], str]:
     return frequency[frequency > 0.0], f"dashed: natural frequencies{at}"
 
 
-def _waterfall(
-    ax: Axes,
-    result: MountResponse,
-    drawn: Drawn,
-    orders: tuple[Order, ...],
-    label: str | None,
-    style: dict[str, Any],
-) -> str:
+def _waterfall(ax: Axes, drawn: Drawn, label: str | None, style: dict[str, Any]) -> str:
     """Draw the spectrum over frequency of each speed, a step above that of the one below it."""
-    every = _speeds(result, "waterfall", label)
+    every = _speeds(drawn.result, "waterfall", label)
     _, first = np.unique(every, return_index=True)
     picked = first[
         np.unique(np.linspace(0, len(first) - 1, min(MOST_SPECTRA, len(first))).round().astype(int))
     ]
     rpm = every[picked]
-    peaks = np.array([drawn.read(order)[picked] for order in orders])
-    _speed_axis(ax)
-    label_x(ax, "frequency, Hz")
-    label_y(ax, "crank speed, rpm")
+    peaks = np.array([drawn.read(order)[picked] for order in drawn.orders])
+    x_axis(ax, "frequency, Hz")
+    y_axis(ax, CRANK_SPEED)
     if not peaks.any():
         note_zero(ax)
         return ""
-    frequency = np.multiply.outer(np.array(orders, dtype=np.float64), rpm / 60.0)
+    frequency = np.multiply.outer(np.array(drawn.orders, dtype=np.float64), rpm / 60.0)
     step = float(rpm[-1] - rpm[0]) / (len(rpm) - 1)
     largest = float(peaks.max())
     norm = LogNorm(SEEN * largest, largest, clip=True)
     tips = rpm + TALLEST * step * np.asarray(norm(peaks))
-    natural, note = _natural(result)
+    natural, note = _natural(drawn.result)
     seen = frequency[frequency > 0.0]
     left, right = 0.9 * min([float(seen.min()), *natural]), 1.1 * float(seen.max())
     base: dict[str, Any] = {"color": muted(ax, 0.2), "linewidth": 0.6, "zorder": 1}
@@ -364,9 +335,9 @@ def _waterfall(
     low, high = float(rpm[0]), float(tips.max())
     limits = low - 0.5 * step, high + 0.1 * (high - low)
     upright = [((frequency, frequency), limits) for frequency in natural if frequency < right]
-    colour_bar([ax], stems, units.headed("peak", drawn.unit), np.maximum(peaks, SEEN * largest))
+    colour_bar([ax], stems, drawn.peak, np.maximum(peaks, SEEN * largest))
     _dashed(ax, upright, muted(ax, 0.7))
-    _name_orders(ax, orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
+    _name_orders(ax, drawn.orders, peaks, np.stack([frequency[:, -1], tips[:, -1] + 0.2 * step]))
     ax.set_xscale("log")
     ax.set_xlim(left, right)
     ax.set_ylim(*limits)
@@ -393,41 +364,18 @@ def _name_orders(
             ax.text(frequency, height, f"{orders[k]}", fontsize="small", **look)
 
 
-def _spectrum(
-    ax: Axes,
-    result: MountResponse,
-    drawn: Drawn,
-    orders: tuple[Order, ...],
-    label: str | None,
-    style: dict[str, Any],
-) -> str:
+def _spectrum(ax: Axes, drawn: Drawn, label: str | None, style: dict[str, Any]) -> str:
     """Draw stems along x, y and z for each order."""
-    peaks: NDArray[np.float64] = np.array([drawn.read(order, "peak_xyz") for order in orders])
-    peaks = peaks.reshape(-1, 3)
-    places = np.array(orders, dtype=np.float64)
+    vectors = [drawn.read(order, "peak_xyz") for order in drawn.orders]
+    peaks: NDArray[np.float64] = np.array(vectors).reshape(-1, 3)
+    places = np.array(drawn.orders, dtype=np.float64)
     width = 0.8 * float(np.min(np.diff(places), initial=1.0)) / 3.0
     seen = [k for k in range(3) if peaks[:, k].any()]
     for k, look in zip(seen, series(ax, len(seen), style), strict=True):
-        name = ", ".join(filter(None, [label, f"along {'xyz'[k]}"]))
-        bars: dict[str, Any] = {
-            "color": look["color"],
-            "linewidth": 0.0,
-            "label": name,
-            "gid": SERIES,
-        }
-        ax.bar(places + (k - 1) * width, peaks[:, k], width, **bars)
-    numeric(ax.xaxis, whole=True)
-    numeric(ax.yaxis)
-    label_x(ax, "order")
-    label_y(ax, units.headed("peak", drawn.unit))
-    from_zero(ax, float(peaks.max(initial=0.0)))
-    if not seen:
-        note_zero(ax)
+        name = joined(label or "", f"along {'xyz'[k]}")
+        bars: dict[str, Any] = {"color": look["color"], "linewidth": 0.0, "gid": SERIES}
+        ax.bar(places + (k - 1) * width, peaks[:, k], width, label=name, **bars)
+    x_axis(ax, "order", whole=True)
+    y_axis(ax, drawn.peak, largest=float(peaks.max(initial=0.0)))
     add_legend(ax)
     return ""
-
-
-def _speed_axis(ax: Axes) -> None:
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    label_x(ax, "crank speed, rpm")

@@ -10,10 +10,10 @@ from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.operating_map import OF_WHEEL, OperatingMap
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.layout import add_legend, axes_or_new, set_title
 from crankpin.plot.maps import DOTTED, heat, scale_from_zero
-from crankpin.plot.style import SERIES, count_series, series
-from crankpin.plot.ticks import from_zero, numeric, span
+from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis
+from crankpin.plot.style import SERIES, count_series
 from crankpin.plot.words import joined, loads_of, number
 
 if TYPE_CHECKING:
@@ -57,17 +57,21 @@ def _operating_map(
         coords, label_of_bar = [result.rpm, load], units.headed(what, unit)
         cells = values.T[..., np.newaxis]
         dotted = heat([ax], coords, cells, label_of_bar, scale_from_zero(values), style)
-        numeric(ax.xaxis)
-        numeric(ax.yaxis)
-        label_x(ax, SPEED)
-        label_y(ax, LOAD)
+        x_axis(ax, SPEED)
+        y_axis(ax, LOAD)
         where = DOTTED if dotted else ""
     else:
         over_speed = len(load) == 1
         along = result.rpm if over_speed else load
-        _curve(ax, along, values.ravel(), label, style)
-        label_x(ax, SPEED if over_speed else LOAD)
-        label_y(ax, units.headed(what, unit))
+        in_order = np.argsort(along, kind="stable")
+        look: dict[str, Any] = {"marker": "o"} if len(along) == 1 else {}
+        column = {label or f"_{count_series(ax)}": values.ravel()[in_order]}
+        draw_curves(ax, along[in_order], column, style, **look)
+        reached = [line.get_xdata() for line in ax.lines if line.get_gid() == SERIES]
+        x_axis(ax, SPEED if over_speed else LOAD, np.concatenate(reached))
+        y_axis(ax, units.headed(what, unit), largest=highest(ax))
+        if label is not None:
+            add_legend(ax)
         where = "" if over_speed else f"{number(float(result.rpm[0]))} rpm"
         if over_speed and result.load is not None:
             where = f"load {number(float(load[0]))}"
@@ -88,26 +92,3 @@ def _quantity(result: OperatingMap, quantity: str) -> tuple[str, str, NDArray[np
     values = result.read(name).reshape(-1, count)
     factor, unit = OF_WHEEL[name]
     return name.removesuffix("_deg"), unit, factor * values
-
-
-def _curve(
-    ax: Axes,
-    along: NDArray[np.float64],
-    values: NDArray[np.float64],
-    label: str | None,
-    style: dict[str, Any],
-) -> None:
-    in_order = np.argsort(along, kind="stable")
-    (look,) = series(ax, 1, style)
-    drawn: dict[str, Any] = {"gid": SERIES, "label": label or f"_{count_series(ax)}"}
-    drawn |= {"marker": "o"} if len(along) == 1 else {}
-    ax.plot(along[in_order], values[in_order], **(drawn | look))
-    numeric(ax.xaxis)
-    numeric(ax.yaxis)
-    lines = [line for line in ax.lines if line.get_gid() == SERIES]
-    span(ax, np.concatenate([line.get_xdata() for line in lines]))
-    from_zero(ax, max(float(np.max(line.get_ydata())) for line in lines))
-    if not values.any():
-        note_zero(ax)
-    if label is not None:
-        add_legend(ax)

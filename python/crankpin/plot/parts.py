@@ -13,15 +13,8 @@ import numpy as np
 from crankpin._support import inputs, labels, units
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
-from crankpin.plot.layout import (
-    Drawn,
-    Panels,
-    label_x,
-    label_y,
-    make_panels,
-    set_panel_title,
-    width_for,
-)
+from crankpin.plot.layout import Drawn, Panels, label_y, make_panels, set_panel_title, width_for
+from crankpin.plot.painter import x_axis
 from crankpin.plot.rows import (
     MOST_ORDERS_DRAWN,
     along_x,
@@ -32,8 +25,8 @@ from crankpin.plot.rows import (
     words_of,
 )
 from crankpin.plot.style import DISTINCT, entries_of, series
-from crankpin.plot.ticks import degrees, magnitude_scale, numeric, span
-from crankpin.plot.words import drawn_quantity, nonzero_in
+from crankpin.plot.ticks import magnitude_scale
+from crankpin.plot.words import drawn_quantity, joined, nonzero_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,13 +73,13 @@ def parts(
     grid, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
         if not grid.single:
-            of = ", ".join(filter(None, (f"order {chosen[row]}", names[column])))
-            set_panel_title(panel, of)
+            set_panel_title(panel, joined(f"order {chosen[row]}", names[column]))
+        is_lowest = grid.single or panel.get_subplotspec().is_last_row()
+        label = dimension(along) if is_lowest else ""
+        x_axis(panel, label, sweep.coords[along], by_angle=along.endswith("_deg"))
         _draw(panel, sweep, vectors[row], along, style, column)
         if grid.single or panel.get_subplotspec().is_first_col():
             label_y(panel, QUANTITIES[name].words, units.headed("", QUANTITIES[name].unit))
-        if grid.single or panel.get_subplotspec().is_last_row():
-            label_x(panel, dimension(along))
     for of_order, vector in zip(panels, vectors, strict=True):
         for panel in of_order:
             magnitude_scale(panel, _sizes(vector), logarithmic=logarithmic)
@@ -129,7 +122,5 @@ def _draw(
         Curve((column, k), look, text)
         for k, (look, text) in enumerate(zip(looks, labels.TURNING_WORDS.values(), strict=True))
     ]
-    span(ax, values)
     lines(ax, values, heights, drawn)
     mark(ax, along, values, heights, drawn, least=False)
-    (degrees if along.endswith("_deg") else numeric)(ax.xaxis)

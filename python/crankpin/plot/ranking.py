@@ -13,17 +13,17 @@ from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.analysis.design.families import turned
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import FEW_POINTS, engine_looks
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
+from crankpin.plot.layout import add_legend, axes_or_new, set_title
+from crankpin.plot.painter import draw_curves, name_rows, x_axis, y_axis
 from crankpin.plot.style import DISTINCT, SERIES, foreground, once, ring, series, write_at_mark
 from crankpin.plot.sweep import MOST_ENGINES
-from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.ticks import from_zero
 from crankpin.plot.words import (
     in_degrees,
     joined,
     loads_of,
     numbers,
     objective_words,
-    plain_text,
     rounded,
     short_names,
 )
@@ -70,8 +70,7 @@ def _ranking(
     if ranking.bank_angles_deg is None:
         best = ranking.choices[:MOST_ENGINES]
         short = dict(zip(ranking.names, names, strict=True))
-        _listed(ax, best, [short[choice.name] for choice in best], style)
-        label_x(ax, quantity)
+        _listed(ax, best, [short[choice.name] for choice in best], quantity, style)
         rest = len(ranking) - len(best)
         note = f"{rest} more engines not shown" if rest else ""
         set_title(ax, title, joined(ranking._description(1), loads_of(ranking)), note)
@@ -159,7 +158,7 @@ def _designs(
     number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
     best = designs.designs[:number]
-    names = [", ".join(filter(None, [label, _crank_text(design)])) for design in best]
+    names = [joined(label or "", _crank_text(design)) for design in best]
     quantity = objective_words(designs.objectives[0])
     what = joined(designs._description(1), loads_of(designs))
     set_title(ax, _title(designs, len(best)), what)
@@ -167,8 +166,7 @@ def _designs(
         _over_bank_angle(ax, designs, best, names, quantity, style)
         add_legend(ax, last=DESIGN)
     else:
-        _listed(ax, best, names, style)
-        label_x(ax, quantity)
+        _listed(ax, best, names, quantity, style)
     return ax
 
 
@@ -251,12 +249,11 @@ def _search(
     without = f"{len(arrangements)} bank angles without backward moment, {result.hold} held"
     name = f"V{result.cylinders}"
     set_title(ax, name, without)
-    (look,) = series(ax, 1, style)
     # Hundreds of them would cover each other.
     size = 3.2 if len(arrangements) <= MANY else 1.2
     dots: dict[str, Any] = {"marker": "o", "markersize": size, "markeredgewidth": 0.0}
-    dots |= look | {"linestyle": ""}
-    ax.plot(angles, heights, gid=SERIES, clip_on=False, label=label or name, **dots)
+    of_dots = style | {"linestyle": ""}
+    draw_curves(ax, angles, {label or name: heights}, of_dots, clip_on=False, **dots)
     _dress(
         ax,
         np.array(result.window_deg),
@@ -274,14 +271,11 @@ def _dress(
     ax: Axes, angles: NDArray[np.float64], heights: NDArray[np.float64], quantity: str
 ) -> None:
     """Let axes show bank angles, and a quantity from zero on."""
-    span(ax, angles)
-    degrees(ax.xaxis)
-    numeric(ax.yaxis)
+    x_axis(ax, "bank angle", angles, by_angle=True)
     if not (heights < 0.0).any():
         before = ax.get_ylim()[1] / 1.08 if len(ax.lines) else 0.0
         from_zero(ax, max(_largest(heights), before))
-    label_x(ax, "bank angle")
-    label_y(ax, quantity)
+    y_axis(ax, quantity)
 
 
 def _largest(values: NDArray[np.float64]) -> float:
@@ -289,22 +283,25 @@ def _largest(values: NDArray[np.float64]) -> float:
 
 
 def _listed(
-    ax: Axes, best: Sequence[Choice | Design], names: Sequence[str], style: dict[str, Any]
+    ax: Axes,
+    best: Sequence[Choice | Design],
+    names: Sequence[str],
+    quantity: str,
+    style: dict[str, Any],
 ) -> None:
     """Draw values below each other, the best first; those of the first place ringed."""
     rows = np.arange(len(best))
     values = np.array([design.value for design in best])
     values[~np.isfinite(values)] = np.nan
-    (look,) = series(ax, 1, style)
-    dots: dict[str, Any] = {"marker": "o", "markersize": 5.0} | look | {"linestyle": ""}
-    ax.plot(values, rows, gid=SERIES, clip_on=False, label="_", **dots)
+    dots: dict[str, Any] = {"marker": "o", "markersize": 5.0, "clip_on": False}
+    draw_curves(ax, values, {"": rows}, style | {"linestyle": ""}, **dots)
     first = np.array([design.place == 1 for design in best])
     ring(ax, values[first], rows[first], foreground(ax), "o", "_")
     for row, value in zip(rows, values, strict=True):
         if np.isfinite(value):
             write_at_mark(ax, float(value), float(row), rounded(value, 4), beside=True)
-    ax.set_yticks(rows, [plain_text(name) for name in names])
-    ax.set_ylim(len(best) - 0.5, -0.5)
-    numeric(ax.xaxis)
+    name_rows(ax, names)
+    ax.tick_params(axis="y", pad=8)  # of the rings at zero
+    x_axis(ax, quantity)
     if not (values < 0.0).any():
         ax.set_xlim(0.0, 1.3 * _largest(values) or 1.0)

@@ -11,13 +11,13 @@ from crankpin._support.drawing import picture
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
-from crankpin.plot.layout import Drawn, Kinds, draw_kind, label_x, make_panels
+from crankpin.plot.layout import Drawn, Kinds, draw_kind, make_panels
 from crankpin.plot.maps import heat_map, order_map
+from crankpin.plot.painter import name_rows, x_axis
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, words_of
 from crankpin.plot.style import DISTINCT, background, colours, foreground, hollow, muted, write
-from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in, plain_text
+from crankpin.plot.words import drawn_quantity, joined, loads_of, nonzero_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -116,12 +116,9 @@ def _panel(
         look |= {"linewidth": 0.0, "label": f"order {order}"} | style
         ax.barh(up, values, 0.92 * height, **look)
         hollow(ax, np.zeros_like(zeros), zeros, colour, markersize=3.5)
-    numeric(ax.xaxis)
+    x_axis(ax, units.headed("peak", QUANTITIES[quantity].unit))
     ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
-    label_x(ax, units.headed("peak", QUANTITIES[quantity].unit))
-    ax.set_yticks(rows, [plain_text(name) for name in names])
-    ax.tick_params(axis="y", length=0)
-    ax.set_ylim(len(names) - 0.5, -0.5)
+    name_rows(ax, names)
 
 
 def _class(ax: Axes, classes: Sequence[str]) -> None:

@@ -24,8 +24,9 @@ from crankpin.analysis.ranking.ranking import Choice
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 from crankpin.plot.layout import Drawn, add_legend, label_x, label_y, make_panels, note_zero
+from crankpin.plot.painter import draw_curves, name_rows, x_axis
 from crankpin.plot.style import SERIES, colours, foreground, muted, series, tint
-from crankpin.plot.ticks import degrees, numeric, span
+from crankpin.plot.ticks import degrees, numeric
 from crankpin.plot.words import joined, plain_text
 
 if TYPE_CHECKING:
@@ -141,16 +142,13 @@ def _names(table: Table) -> list[str]:
         if head not in numbers and head != "unit"
     ]
     beside = beside or [[str(k + 1) for k in range(len(table))]]
-    return [plain_text(", ".join(cells)) for cells in zip(*beside, strict=True)]
+    return [", ".join(cells) for cells in zip(*beside, strict=True)]
 
 
 def _curves(ax: Axes, x: NDArray[np.float64], panel: Panel, style: dict[str, Any]) -> None:
-    looks = series(ax, len(panel.columns), style)
-    for (name, values), look in zip(panel.columns.items(), looks, strict=True):
-        ax.plot(x, values, gid=SERIES, label=plain_text(name), **look)
-    numeric(ax.xaxis)
+    draw_curves(ax, x, {plain_text(name): values for name, values in panel.columns.items()}, style)
+    x_axis(ax, "", x)
     numeric(ax.yaxis)
-    span(ax, x)
     _label(ax, panel, label_y)
 
 
@@ -166,8 +164,7 @@ def _bars(ax: Axes, names: list[str], panel: Panel, style: dict[str, Any]) -> No
         ax.barh(at, lengths, height=0.9 * height, **(options | style))
     if not any(np.nan_to_num(values).any() for values in panel.columns.values()):
         note_zero(ax)
-    ax.set_yticks(places, [names[row] for row in rows])
-    ax.invert_yaxis()
+    name_rows(ax, [names[row] for row in rows])
     ax.axvline(0.0, color=muted(ax, 0.5), linewidth=0.8)
     numeric(ax.xaxis)
     _label(ax, panel, label_x)
@@ -198,11 +195,10 @@ def _words(
             place.barh(row, 0.96, **(box | style))
             look: dict[str, Any] = {"ha": "center", "va": "center", "color": foreground(place)}
             place.text(column, row, plain_text(word), fontsize="small", **look)
-    place.set_yticks(range(len(rows[0])), [plain_text(name) for name in first.cells(MOST_BARRED)])
+    name_rows(place, first.cells(MOST_BARRED))
     place.set_xticks(range(len(others)), [plain_text(column.header) for column in others])
     place.tick_params(length=0.0, labelsize="x-small")
     place.spines[:].set_visible(False)
-    place.set_ylim(max(1, len(rows[0])) - 0.5, -0.5)
     place.set_xlim(-0.5, len(others) - 0.5)
     label_y(place, first.header)
     grid.set_title(*title.split("; "))

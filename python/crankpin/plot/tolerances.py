@@ -10,7 +10,8 @@ from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.tolerances.samples import QUANTILES, Tolerances
-from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_x, label_y, set_title
+from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_y, set_title
+from crankpin.plot.painter import name_rows, x_axis
 from crankpin.plot.style import SERIES, font_of, foreground, muted, once, series
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import objective_words
@@ -65,9 +66,8 @@ def _tolerances(
     dashed: dict[str, Any] = {"linewidth": 1.2, "linestyle": (0, (4, 2)), "gid": ""}
     dashed |= {"color": foreground(ax), "label": once(ax, NOMINAL)}
     ax.axvline(result.nominal_value(name), **dashed)
-    numeric(ax.xaxis)
+    x_axis(ax, objective_words(objective))
     numeric(ax.yaxis)
-    label_x(ax, objective_words(objective))
     add_legend(ax, last=NOMINAL)
     return ax
 
@@ -136,7 +136,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     shares = result.shares_of(result.by if by is None else (by,))
     names, *parts, interaction = shares.columns
     rows = np.arange(len(shares))
-    ax.set_yticks(rows, [_short(objectives.named(str(name))) for name in names.values])
+    name_rows(ax, [_short(objectives.named(str(name))) for name in names.values])
     _fit_rows(ax, len(rows))
     interact = any(abs(share) > INTERACTION for share in interaction.values)
     set_title(
@@ -155,10 +155,8 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
         ax.barh(rows, values, left=left, label=title, gid=SERIES, **bars)
         left = left + values
     ax.axvline(100.0, color=muted(ax), linewidth=0.8)
-    ax.set_ylim(len(rows) - 0.5, -0.5)
     ax.set_xlim(0.0, max(100.0, 1.04 * float(left.max(initial=0.0))))
-    numeric(ax.xaxis)
-    label_x(ax, f"%, {labels.value_text('rpm', result.rpm)}")
+    x_axis(ax, f"%, {labels.value_text('rpm', result.rpm)}")
     add_legend(ax)
     return ax
 
@@ -173,4 +171,4 @@ def _fit_rows(ax: Axes, rows: int) -> None:
     # Title and legend will leave a third of the height of short axes.
     points = 0.33 * 72.0 * inches_of(ax, "height") / rows
     usual = font_of("ytick.labelsize", "medium").get_size_in_points()
-    ax.tick_params(axis="y", length=0, labelsize=min(usual, max(4.5, points)))
+    ax.tick_params(axis="y", labelsize=min(usual, max(4.5, points)))

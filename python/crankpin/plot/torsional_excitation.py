@@ -9,11 +9,11 @@ import numpy as np
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
 from crankpin.analysis.torsional_excitation import TorsionalExcitation
-from crankpin.plot.balance import ZERO, beside_each_other, scale_spectrum, stems
+from crankpin.plot.balance import OVER_ORDER, ZERO, beside_each_other, scale_spectrum, stems
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.maps import cells, colour_bar, logarithmic_scale, scale_from_zero
+from crankpin.plot.painter import x_axis, y_axis
 from crankpin.plot.style import series
-from crankpin.plot.ticks import numeric
 from crankpin.plot.words import joined, loads_of, number
 
 if TYPE_CHECKING:
@@ -102,11 +102,11 @@ def _over_order(
 ) -> None:
     along = np.array(orders, dtype=np.float64)
     for (part, values), look in zip(curves.items(), series(ax, len(curves), style), strict=True):
-        name = ", ".join(filter(None, [label, PART_NAMES[part]]))
+        name = joined(label or "", PART_NAMES[part])
         stems(ax, along, values, label if label and len(curves) == 1 else name, look)
     beside_each_other(ax)
     scale_spectrum(ax, logarithmic=logarithmic, orders_given=False)
-    label_x(ax, "order (multiples of crank speed)")
+    label_x(ax, OVER_ORDER)
     label_y(ax, AMPLITUDE)
     add_legend(ax, last=ZERO)
 
@@ -123,7 +123,5 @@ def _over_speed(
     mesh = cells([ax], speeds, orders, amplitudes[..., np.newaxis], {"norm": norm} | style)
     if amplitudes.any():
         colour_bar([ax], mesh, AMPLITUDE, amplitudes)
-    numeric(ax.xaxis)
-    numeric(ax.yaxis, whole=True)
-    label_x(ax, "speed, rpm")
-    label_y(ax, "order")
+    x_axis(ax, "speed, rpm")
+    y_axis(ax, "order", whole=True)

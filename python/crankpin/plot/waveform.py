@@ -18,16 +18,16 @@ from crankpin.plot.layout import (
     Drawn,
     add_legend,
     axes_or_new,
-    label_x,
     label_y,
     make_panels,
     note_zero,
     set_title,
 )
+from crankpin.plot.painter import draw_curves, x_axis, zero_line
 from crankpin.plot.plane import label_plane, plane_vector, trace
 from crankpin.plot.rows import words_of
-from crankpin.plot.style import DISTINCT, SERIES, count_series, muted, series
-from crankpin.plot.ticks import degrees, numeric, span
+from crankpin.plot.style import DISTINCT, SERIES, count_series, series
+from crankpin.plot.ticks import numeric
 from crankpin.plot.words import (
     by_component,
     drawn_quantity,
@@ -142,7 +142,7 @@ def _sweep_waveform(
     _limit(panels.axes[0, 0], values)
     label_y(panels.axes[0, 0], with_unit(name))
     column = columns[0] if panels.single else ""
-    how = ", ".join(filter(None, [summed(result, name), column, points]))
+    how = joined(summed(result, name), column, points)
     panels.set_title(words.title, words.subtitle(name), how)
     panels.add_legend(handles, words.common if chosen == "curves" else "")
     return panels.drawn
@@ -170,7 +170,7 @@ def _envelope(
     panels: NDArray[Any], result: SweepWaveform, values: NDArray[np.float64], style: dict[str, Any]
 ) -> list[Any]:
     """Draw bands of quantiles over all points, and the median; return the entries of a legend."""
-    label = style.get("label")
+    label = style.get("label") or ""
     handles: list[Any] = []
     for k, panel in enumerate(panels.flat):
         heights = values[..., k].reshape(-1, len(result.theta_deg))
@@ -182,11 +182,11 @@ def _envelope(
                 color=look["color"],
                 alpha=opacity,
                 linewidth=0.0,
-                label=", ".join(filter(None, [label, text])),
+                label=joined(label, text),
             )
             for low, high, opacity, text in BANDS
         ]
-        text = ", ".join(filter(None, [label, "median"]))
+        text = joined(label, "median")
         median = np.quantile(heights, 0.5, axis=0)
         handles += panel.plot(result.theta_deg, median, gid=SERIES, label=text, **look)
     return handles
@@ -194,11 +194,9 @@ def _envelope(
 
 def dress(ax: Axes, theta_deg: NDArray[np.float64]) -> None:
     """Let axes show crank angles, and a line at zero."""
-    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
-    degrees(ax.xaxis)
-    span(ax, theta_deg)
+    zero_line(ax)
+    x_axis(ax, "crank angle θ", theta_deg, by_angle=True)
     numeric(ax.yaxis)
-    label_x(ax, "crank angle θ")
 
 
 def _limit(ax: Axes, values: NDArray[np.float64]) -> None:
@@ -264,14 +262,13 @@ def curves(
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     first = not count_series(ax)
-    styles = series(ax, values.shape[1], style)
-    for k, text in enumerate(series_names(drawn, label)):
-        ax.plot(result.theta_deg, values[:, k], gid=SERIES, label=text, **styles[k])
+    columns = dict(zip(series_names(drawn, label), values.T, strict=True))
+    whole, *_ = draw_curves(ax, result.theta_deg, columns, style)
     if len(drawn) > 1:
-        whole = Balance(result.engine, result.rpm, result._request.at_orders((1,)))
-        look = {"color": styles[0]["color"], "linewidth": 0.8, "linestyle": ":"}
-        text = ", ".join(filter(None, [label, "mean"]))
-        ax.axhline(getattr(whole, name).cycle_mean, label=text, gid=MEAN, **look)
+        balance = Balance(result.engine, result.rpm, result._request.at_orders((1,)))
+        look: dict[str, Any] = {"color": whole.get_color(), "linewidth": 0.8, "linestyle": ":"}
+        text = joined(label or "", "mean")
+        ax.axhline(getattr(balance, name).cycle_mean, label=text, gid=MEAN, **look)
     if first:
         dress(ax, result.theta_deg)
         label_y(ax, with_unit(name))
