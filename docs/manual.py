@@ -22,6 +22,7 @@ from crankpin._support import inputs
 from crankpin._support.drawing import Plot
 from crankpin._support.record import FieldsDocumented
 from crankpin.model import engine_files
+from crankpin.model.presets import usual_speed
 from crankpin.view import gallery
 from docutils import nodes
 from matplotlib.text import Text
@@ -232,7 +233,7 @@ def make_gallery(app: Sphinx) -> None:
     presets = cp.presets()
     cards = []
     for name, engine in presets.items():
-        rpm = gallery.speed_of(name, RPM)
+        rpm = usual_speed(name, RPM)
         balance = engine.balance(rpm=rpm)
         explained = engine.explain()
         text = PRESET.format(
@@ -325,7 +326,7 @@ def make_turning(app: Sphinx, failed: Exception | None) -> None:
         (folder / "compact").mkdir(exist_ok=True)
         for name, engine in cp.presets().items():
             engine.save_html(
-                folder / "compact" / f"{name}.html", rpm=gallery.speed_of(name, RPM), compact=True
+                folder / "compact" / f"{name}.html", rpm=usual_speed(name, RPM), compact=True
             )
 
 

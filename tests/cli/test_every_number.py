@@ -74,9 +74,14 @@ VALUES = {
     "--dummy": "2", "--pins": "60,30", "--mean-diameter": "1m", "--stroke-load": "500,40",
     "--width-ratio": "2 --mean-diameter 1m", "--width": "100mm --mean-diameter 1m",
     "--thickness": "30mm --mean-diameter 1m", "--share": "95% --mean-diameter 1m",
+    "--vertical": "180", "--length": "2.4m", "--wheels": "-0.8,0.8", "--inclination": "5,5",
+    "--wheel-diameter": "1.7m", "--axles": "0,1.9m", "--driving": "1,1", "--wheel-load": "70kN",
     "--density": "7850 --mean-diameter 1m", "--rim-speed": "25", "--hoop-stress": "4MPa",
 }  # fmt: skip
 """A sound value of each option, with what it needs beside it."""
+ENGINE_OF_A_LOCOMOTIVE = (
+    "--stroke 600mm --reciprocating-mass 300kg --z=-350mm,350mm --throws 0,90 --wheels=-800mm,800mm"
+)
 IN_PLACE = {
     ("new", "--bank-angle"): "vee --throws 0,90 --bank-angle 60",
     ("new", "--throws"): "inline --throws 0,180",
@@ -135,6 +140,14 @@ IN_PLACE = {
     ("flywheel", "--areas"): "--rpm 600 --inertia 2 --areas 52,-52",
     ("flywheel", "--torque-scale"): "--areas 52,-52 --torque-scale 600",
     ("flywheel", "--angle-scale"): "--areas 52,-52 --angle-scale 3",
+    ("guide-moments", "--bore"): "marine-5 --rpm 210 --cycle diesel --bore 350mm",
+    ("guide-moments", "--crankcase"): "marine-5 --rpm 210 --cycle diesel --crankcase 1bar",
+    ("locomotive", "--z"): f"{ENGINE_OF_A_LOCOMOTIVE} --rpm 280 --z -0.35,0.35",
+    ("locomotive", "--rod-length"): f"{ENGINE_OF_A_LOCOMOTIVE} --rpm 280 --rod-length 2m",
+    ("locomotive", "--share"): f"{ENGINE_OF_A_LOCOMOTIVE} --rpm 280 --share 66%",
+    ("locomotive", "--coupling"): f"{ENGINE_OF_A_LOCOMOTIVE} --rpm 280 --coupling 20:0.9:180:1",
+    ("locomotive", "--hammer-blow"): f"{ENGINE_OF_A_LOCOMOTIVE} --rpm 280 --hammer-blow 40kN",
+    ("locomotive", "--speed"): f"{ENGINE_OF_A_LOCOMOTIVE} --wheel-diameter 1.7 --speed 90",
     ("sweep", "--rpm"): "v6-60 --orders 1,2 --rpm 1000,2000",
     ("tolerances", "--orders"): "i4 --z 1mm --samples 20 --orders 1,2",
     ("mounts", "--orders"): "car.toml --rpm 2000 --orders 1,2",

@@ -23,6 +23,10 @@ LINES = {
     "explain": "explain v8-crossplane --rpm 6000",
     "compare": "compare i4 i4-crossplane --rpm 6000",
     "flywheel": "flywheel i4 --rpm 800 --irregularity 2% --bore 86mm",
+    "foundation": "foundation marine-5 --rpm 210",
+    "guide-moments": "guide-moments marine-5 --rpm 210 --length 2.4m",
+    "locomotive": "locomotive --stroke 600mm --reciprocating-mass 300kg --z=-350mm,350mm "
+    "--throws 0,90 --wheels=-800mm,800mm --share 66% --rpm 280",
     "two-plane": "two-plane --amounts 5oz·in,3 --angles 35,310 --measured 0,335mm --correct=-1,20 "
     "--radius 70mm",
     "match": "match v8-crossplane --pistons 470g,473g,471g,469g,474g,470g,467g,472g",

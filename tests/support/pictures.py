@@ -171,6 +171,12 @@ PART_LOAD = cp.CycleMap(
     [1000, 6000], [0, 1], [[cp.Cycle.example(load=each) for each in (0, 1)]] * 2
 )
 
+SHIP = cp.Engine.preset("marine-6").with_cycle(cp.Cycle.example("diesel", strokes=2))
+LOCOMOTIVE = cp.Locomotive(
+    cp.Cylinder(0.3, 2.0, 300.0), z=[-0.35, 0.35], throws_deg=[0, 90], wheel_z=[-0.8, 0.8],
+    share=0.66, wheel_diameter=1.7, wheel_load=45e3, name="Two cylinders",
+)  # fmt: skip
+
 PICTURES: dict[str, Callable[..., Any]] = {
     "cancelled": _of_one_panel(lambda ax: _cancelled(1200.0, ax=ax)),
     "cancelled-over-speed": _of_one_panel(lambda ax: _cancelled(np.arange(800, 5001, 50.0), ax=ax)),
@@ -228,6 +234,15 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "turning-moment-areas": lambda **place: cp.turning_moment_areas(
         [52, -124, 92, -140, 85, -72, 107], torque_scale=600, angle_scale_deg=3
     ).plot(**place),
+    "foundation-table": lambda **place: cp.foundation_table(
+        FITTED.replace(bank_deg=[75] * 4), 3000, orders=(1, 2, 4)
+    ).plot(**place),
+    "foundation-over-speed": lambda **place: cp.foundation_table(
+        cp.Engine.preset("marine-5"), range(60, 211, 10), orders=(1, 2, 4)
+    ).plot(**place),
+    "guide-moments": lambda **place: cp.guide_moments(SHIP, 210).plot(**place),
+    "guide-moments-map": lambda **place: cp.guide_moments(SHIP, range(60, 211, 10)).plot(**place),
+    "hammer-blow": _of_one_panel(lambda ax: LOCOMOTIVE.forces(speed_kmh=90).plot(ax)),
     "bob-weight": lambda **place: cp.bob_weight(V6_90).plot(**place),
     "bob-weights": _bob_weights,
     "search": lambda **place: cp.search_arrangements(14).within(40, 70).plot(**place),

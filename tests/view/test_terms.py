@@ -16,8 +16,8 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin import _core
+from crankpin.model.presets import usual_speed
 from crankpin.view.figures import Settings, figures
-from crankpin.view.gallery import speed_of
 from numpy.polynomial import chebyshev
 from support import in_turn
 from support.several_cranks import fired_engine, random_engine, size
@@ -102,7 +102,7 @@ def assert_agree(page: Page, engine: cp.Engine, rpm: float = 3000.0) -> None:
 @pytest.mark.slow  # a browser
 @in_turn("name", cp.presets())
 def test_presets(page: Page, name: str) -> None:
-    assert_agree(page, cp.Engine.preset(name), speed_of(name, 3000.0))
+    assert_agree(page, cp.Engine.preset(name), usual_speed(name, 3000.0))
 
 
 @pytest.mark.slow  # a browser

@@ -63,10 +63,10 @@ class Locomotive(Framed, Input):
         Cranks in the direction of rotation, relative to each other, degrees.
     wheel_z : pair of float
         Places of the planes of the two wheels along the axle, where the weights are, m.
-    share : float or sequence of float, default 0.0
-        Share of the reciprocating mass that is balanced, 0 to 1: of all axles together, of which
-        each has an equal part, or of each axle.
-    rotating_mass : float or array_like, default 0.0
+    share : array_like, default 0.0
+        Share of the reciprocating mass that is balanced, 0 to 1, of all axles together, of which
+        each has an equal part; or of each axle.
+    rotating_mass : array_like, default 0.0
         Mass at the crank radius in the plane of each cylinder, crankpin and big end, kg.
     inclination_deg : number, str or sequence of these, default 0.0
         Angle of the cylinders, or of each, above the horizontal, degrees.
@@ -81,8 +81,8 @@ class Locomotive(Framed, Input):
         counted from the crank of that cylinder.
     weights : sequence of sequence of Unbalance, optional
         Counterweights of each axle in place of those that ``share`` asks for.
-    wheel_load : float or sequence of float, optional
-        Static load of each wheel on the rail, N; of all, or right and left of each axle.
+    wheel_load : array_like, optional
+        Static load of a wheel on the rail, N; of all, or of right and left of each axle.
     name : str, optional
         Name of the locomotive; may be empty.
 

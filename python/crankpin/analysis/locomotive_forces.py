@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._support.frames import Frames
     from crankpin._support.quantities import Kind
     from crankpin.analysis.locomotive import Locomotive
     from crankpin.analysis.quantity import Quantity
@@ -116,6 +117,11 @@ class LocomotiveForces(Labelled):
     def swaying_couple(self) -> Quantity[np.float64, NDArray[np.float64]]:
         """Couple of inertia about the vertical through the middle, N·m: (n_theta,)."""
         return self._quantity("swaying_couple")
+
+    @property
+    def frames(self) -> Frames:
+        """``table``; ``wheels``: the counterweights, as the table of the locomotive."""
+        return self._frames(wheels=lambda: self.locomotive.table)
 
     @property
     def table(self) -> Table:

@@ -186,9 +186,20 @@ def layout(name: str = "single") -> Layout:
     entry = _data()["engines"][name]
     ((builder, arguments),) = (item for item in entry.items() if isinstance(item[1], dict))
     common = {key: entry[key] for key in ("source", "firing_order", "strokes") if key in entry}
-    parts = Cylinder(**_data()["parts"][entry.get("parts", "nominal")])
+    parts = Cylinder(**{key: value for key, value in _parts(name).items() if key != "rpm"})
     arguments = {"name": entry["title"]} | common | arguments
     return Layout(builder, arguments, parts, entry.get("spacing", 0.1))
+
+
+def usual_speed(name: str, rpm: float) -> float:
+    """Return the speed of a preset that turns slowly, or else the one given, rpm."""
+    return float(_parts(name).get("rpm", rpm))
+
+
+def _parts(name: str) -> dict[str, Any]:
+    """Return the moving parts of a preset, and its usual speed if it has one."""
+    parts: dict[str, Any] = _data()["parts"][_data()["engines"][name].get("parts", "nominal")]
+    return parts
 
 
 def aliases() -> Mapping[str, str]:

@@ -14,6 +14,7 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     cycle,
     engine,
     firing,
+    makers_tables,
     mount_designs,
     mounts,
     operating_map,

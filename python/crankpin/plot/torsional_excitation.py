@@ -69,7 +69,7 @@ def _torsional_excitation(
     ax = axes_or_new(ax)
     if several:
         name = chosen or "torque"
-        _over_speed(
+        over_speed(
             ax, speeds, result.orders, _amplitudes(result, name)[:, place], logarithmic, style
         )
         where = ""
@@ -77,7 +77,7 @@ def _torsional_excitation(
         fired = bool(result.crank_torque.gas[..., place, :].any())
         drawn = [chosen] if chosen else list(PART_NAMES) if fired else ["inertia"]
         curves = {name: _amplitudes(result, name)[0, place] for name in drawn}
-        _over_order(ax, result.orders, curves, label, logarithmic, style)
+        over_order(ax, result.orders, curves, label, logarithmic, style)
         where = f"{number(float(speeds[0]))} rpm"
     of = f" of {PART_NAMES[chosen]}" if chosen in ("gas", "inertia") else ""
     what = joined(f"torque{of} on the crank", f"cylinder {place + 1}", where, loads_of(result))
@@ -92,36 +92,40 @@ def _amplitudes(result: TorsionalExcitation, part: str) -> NDArray[np.float64]:
     return np.reshape(np.abs(torque), shape)
 
 
-def _over_order(
+def over_order(
     ax: Axes,
     orders: tuple[Any, ...],
     curves: dict[str, NDArray[np.float64]],
     label: str | None,
     logarithmic: bool,
     style: dict[str, Any],
+    amplitude: str = AMPLITUDE,
 ) -> None:
+    """Draw amplitudes over order, those of each part beside each other."""
     along = np.array(orders, dtype=np.float64)
     for (part, values), look in zip(curves.items(), series(ax, len(curves), style), strict=True):
-        name = joined(label or "", PART_NAMES[part])
+        name = joined(label or "", PART_NAMES.get(part, part))
         stems(ax, along, values, label if label and len(curves) == 1 else name, look)
     beside_each_other(ax)
     scale_spectrum(ax, logarithmic=logarithmic, orders_given=False)
     label_x(ax, OVER_ORDER)
-    label_y(ax, AMPLITUDE)
+    label_y(ax, amplitude)
     add_legend(ax, last=ZERO)
 
 
-def _over_speed(
+def over_speed(
     ax: Axes,
     speeds: NDArray[np.float64],
     orders: tuple[Any, ...],
     amplitudes: NDArray[np.float64],
     logarithmic: bool,
     style: dict[str, Any],
+    amplitude: str = AMPLITUDE,
 ) -> None:
+    """Draw a map of amplitudes over speed and order."""
     norm = (logarithmic_scale if logarithmic else scale_from_zero)(amplitudes)
     mesh = cells([ax], speeds, orders, amplitudes[..., np.newaxis], {"norm": norm} | style)
     if amplitudes.any():
-        colour_bar([ax], mesh, AMPLITUDE, amplitudes)
+        colour_bar([ax], mesh, amplitude, amplitudes)
     x_axis(ax, "speed, rpm")
     y_axis(ax, "order", whole=True)

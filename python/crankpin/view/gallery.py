@@ -11,8 +11,6 @@ from crankpin.view.figures import places
 from crankpin.view.page import as_json, document, save_html
 
 HEAD = "<div class='crankpin'><header><h1>Engines</h1></header></div>"
-EBOOK_RPM = 10.0
-"""Speed of the presets with a crank radius of one metre, as in their source."""
 
 
 def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
@@ -23,14 +21,14 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     folder
         Where to write them; it is made if need be.
     rpm
-        Crank speed of the pages; engines of the e-book, of one metre crank radius, run at 10.
+        Crank speed of the pages; engines that turn slowly run at their own.
     """
     root = Path(folder)
     root.mkdir(parents=True, exist_ok=True)
     entries: list[dict[str, Any]] = []
     pages = []
     for name, engine in presets.presets().items():
-        speed = speed_of(name, rpm)
+        speed = presets.usual_speed(name, rpm)
         file = root / f"{name}.html"
         save_html(engine, file, rpm=speed)
         entries.append(
@@ -46,8 +44,3 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=HEAD)
     files.write(index, text)
     return [index, *pages]
-
-
-def speed_of(preset: str, rpm: float) -> float:
-    """Return the speed at which a page shows a preset."""
-    return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm
