@@ -1,6 +1,6 @@
 // Charts of the panes: curves over a number, and bars by order; text for those who do not see them.
 
-import { html, path, svg } from "./dom.mjs";
+import { explained, html, path, pointerIn, svg } from "./dom.mjs";
 import { short } from "./format.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -24,11 +24,11 @@ export function ticksOf(low, high, count = 5) {
   return Array.from({ length: last - first + 1 }, (_, k) => Number(((first + k) * step).toPrecision(12)));
 }
 
-/** Ticks of angles: parts of a turn. */
+/** Ticks of angles, with their texts: parts of a turn. */
 export function anglesTicks(low, high) {
   const step = [5, 10, 15, 30, 45, 60, 90, 180].find((each) => (high - low) / each <= 8) ?? 360;
   const first = Math.ceil(low / step);
-  return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, k) => (first + k) * step);
+  return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, k) => [(first + k) * step, `${(first + k) * step}°`]);
 }
 
 /** The frame of a chart: its scales, its axes, and where to draw. */
@@ -81,23 +81,29 @@ export function curves({ title, x, lines, across, up, ticks, marks = [], about =
         class: "tick", x: place + (place > frame.x1 - 90 ? -4 : 4), y: y1 + 22, "text-anchor": place > frame.x1 - 90 ? "end" : "start",
       }, text));
   }
-  const keys = html("p", { class: "keys" }, ...lines.map(({ name, label }) => html("span", {},
-    svg("svg", { viewBox: "0 0 22 8", "aria-hidden": "true" }, svg("path", { class: `line ${name}`, d: "M1 4H21" })), label)));
   if (choose) {
     element.classList.add("chosen-at");
     element.addEventListener("click", (event) => {
-      const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(element.getScreenCTM().inverse());
-      const value = from + ((to - from) * (at.x - frame.x0)) / (frame.x1 - frame.x0);
-      if (value >= from && value <= to) choose(value);
+      const { x: at } = pointerIn(element, event);
+      if (at >= frame.x0 && at <= frame.x1) choose(from + ((to - from) * (at - frame.x0)) / (frame.x1 - frame.x0));
     });
   }
-  return html("figure", { class: "charted" }, html("figcaption", {}, `${title}, ${up}`), element, lines.length > 1 ? keys : "");
+  return charted(`${title}, ${up}`, element, keysOf(lines, "0 0 22 8", (name) => svg("path", { class: `line ${name}`, d: "M1 4H21" })));
+}
+
+/** A chart, or what is in place of one, under its title. */
+export const charted = (title, ...parts) => html("figure", { class: "charted" }, html("figcaption", {}, title), ...parts);
+
+/** What several series are called, each beside its mark. */
+function keysOf(series, viewBox, mark) {
+  if (series.length < 2) return "";
+  return html("p", { class: "keys" }, ...series.map(({ name, label }) =>
+    html("span", {}, svg("svg", { viewBox, "aria-hidden": "true" }, mark(name)), label)));
 }
 
 /** Bars side by side for each entry of `names`; `top` is the highest of several charts of one scale. */
 export function bars({ title, names, series, across, up, top = Math.max(...series.flatMap(({ values }) => values), 0) }) {
-  const caption = html("figcaption", {}, `${title}, ${up}`);
-  if (series.every(({ values }) => values.every((value) => !value))) return html("figure", { class: "charted" }, caption, html("p", { class: "hint" }, WORDS.zeroAtAll));
+  if (series.every(({ values }) => values.every((value) => !value))) return charted(`${title}, ${up}`, explained(WORDS.zeroAtAll));
   const described = `${title}. ${names.map((name, k) =>
     `${name}: ${series.map(({ label, values }) => `${label} ${short(values[k], 2)} ${up}`).join(", ")}`).join("; ")}`;
   const { element, toX, toY, y0 } = framed({
@@ -109,7 +115,5 @@ export function bars({ title, names, series, across, up, top = Math.max(...serie
     element.append(svg("rect", { class: `column ${name}`, x: x.toFixed(1), y: toY(value).toFixed(1), width: Math.max(width - 1, 1).toFixed(1), height: (y0 - toY(value)).toFixed(1) },
       svg("title", {}, `${label}, ${names[k]}: ${short(value, 3)} ${up}`)));
   }));
-  return html("figure", { class: "charted" }, caption, element,
-    series.length > 1 ? html("p", { class: "keys" }, ...series.map(({ name, label }) => html("span", {},
-      svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, svg("rect", { class: `column ${name}`, width: 12, height: 12, rx: 2 })), label))) : "");
+  return charted(`${title}, ${up}`, element, keysOf(series, "0 0 12 12", (name) => svg("rect", { class: `column ${name}`, width: 12, height: 12, rx: 2 })));
 }

@@ -1,7 +1,7 @@
 // The engine as a form: presets, kinds, and a field for each figure, with its error beside it.
 
 import { plainUnit } from "./design.mjs";
-import { html } from "./dom.mjs";
+import { button, html, select } from "./dom.mjs";
 import { FIELDS, KINDS, LOAD_FIELDS, NEW_LOAD, groupsOf } from "./fields.mjs";
 import { withUnit } from "./quantity.mjs";
 import { readable } from "./table.mjs";
@@ -26,10 +26,8 @@ export class Form {
       ...Object.entries(GROUPS).map(([label, names]) => html("optgroup", { label },
         ...names.map((name) => html("option", { value: name }, PRESETS[name].name)))));
     this.preset.addEventListener("change", () => this.preset.value && chosen(this.preset.value));
-    this.kind = html("select", { id: `${this.id}-kind`, "data-field": "kind" },
-      ...Object.entries(KINDS).map(([value, { label }]) => html("option", { value }, label)));
-    this.kind.setAttribute("aria-describedby", `${this.id}-kind-said`);
-    this.kind.addEventListener("change", () => kindChosen(this.kind.value));
+    const labels = Object.fromEntries(Object.entries(KINDS).map(([value, { label }]) => [value, label]));
+    this.kind = select(labels, kindChosen, { id: `${this.id}-kind`, "data-field": "kind", "aria-describedby": `${this.id}-kind-said` });
     this.said = html("p", { class: "fault whole", role: "alert" });
     this.groups = html("div", {});
     this.helper = html("p", { class: "helper", "aria-hidden": "true" });
@@ -69,23 +67,19 @@ export class Form {
   /** A group for each periodic load, and buttons that add and remove them. */
   loads() {
     const { loads } = this.design;
-    const button = (text, act) => {
-      const element = html("button", { type: "button" }, text);
-      element.addEventListener("click", () => {
-        act();
-        this.show(this.design, this.units);
-        this.act.changed();
-      });
-      return element;
-    };
+    const changes = (text, act) => button(text, () => {
+      act();
+      this.show(this.design, this.units);
+      this.act.changed();
+    });
     const groups = loads.map((texts, k) => {
       const of = (isSeldom) => Object.entries(LOAD_FIELDS).filter(([, { seldom = false }]) => seldom === isSeldom)
         .map(([name, field]) => this.entry(`load-${k}-${name}`, field, texts, name));
       return html("fieldset", { class: "group" }, html("legend", {}, `${WORDS.load} ${k + 1}`), ...of(false),
         html("details", {}, html("summary", {}, WORDS.moreOfLoad), ...of(true)),
-        button(WORDS.removeLoad, () => loads.splice(k, 1)));
+        changes(WORDS.removeLoad, () => loads.splice(k, 1)));
     });
-    return [...groups, html("div", { class: "group" }, button(WORDS.addLoad, () => loads.push({ ...NEW_LOAD })))];
+    return [...groups, html("div", { class: "group" }, changes(WORDS.addLoad, () => loads.push({ ...NEW_LOAD })))];
   }
 
   /** A field of the engine, or of a load with texts of its own, in which it has another name. */
@@ -216,9 +210,8 @@ export function inWords(hint, unit = "", units = "") {
 
 /** A choice of the units in which plain numbers are read and results are shown. */
 export function unitsChoice(units, act) {
-  const element = html("select", { "aria-label": WORDS.units, "data-field": "units" },
-    ...UNITS.settings.map((each) => html("option", { value: each }, each)));
+  const names = Object.fromEntries(UNITS.settings.map((each) => [each, each]));
+  const element = select(names, act, { "aria-label": WORDS.units, "data-field": "units" });
   element.value = units;
-  element.addEventListener("change", () => act(element.value));
   return element;
 }

@@ -1,7 +1,7 @@
 // How an engine of two banks would shake at other bank angles: a curve for each order that matters.
 
-import { anglesTicks, curves } from "./chart.mjs";
-import { html } from "./dom.mjs";
+import { anglesTicks, charted, curves } from "./chart.mjs";
+import { explained, html } from "./dom.mjs";
 import { paneFields } from "./pane_controls.mjs";
 import { shownIn } from "./table.mjs";
 import { WORDS } from "./words.mjs";
@@ -35,11 +35,11 @@ export const anglesPane = {
         name: LINES[k], label: `${WORDS.order} ${order}`, values: found[quantity][k].map((value) => value * factor),
       }));
       const none = lines.every(({ values }) => values.every((value) => value < NONE_AT_ALL));
-      return none ? html("figure", { class: "charted" }, html("figcaption", {}, WORDS.over[quantity]), html("p", {}, WORDS.zeroEverywhere)) : curves({
+      return none ? charted(WORDS.over[quantity], html("p", {}, WORDS.zeroEverywhere)) : curves({
         title: WORDS.over[quantity], x: ANGLES, lines, across: WORDS.bankAngle, up: unit, choose,
-        ticks: anglesTicks(0, 180).map((angle) => [angle, `${angle}°`]), marks: [{ at: own, text: WORDS.own(own) }],
+        ticks: anglesTicks(0, 180), marks: [{ at: own, text: WORDS.own(own) }],
       });
     });
-    return [html("div", { class: "charts" }, ...pictures), choose ? html("p", { class: "hint" }, WORDS.chooseAngle) : ""];
+    return [html("div", { class: "charts" }, ...pictures), choose ? explained(WORDS.chooseAngle) : ""];
   },
 };

@@ -3,7 +3,6 @@
 import { reduced } from "./complex.mjs";
 import { html, svg } from "./dom.mjs";
 import { short } from "./format.mjs";
-import { tableOf } from "./table.mjs";
 import { WORDS } from "./words.mjs";
 
 const STRIP_WIDTH = 900;
@@ -43,14 +42,14 @@ export const firingPane = {
   key: "firing",
   title: "Firing",
   when: ({ summary }) => summary.firing,
-  make: async ({ engine, bench }, { units }) => {
+  make: async ({ engine, bench }, { table }) => {
     const { firing } = engine.summary;
     const columns = [{ label: "cylinder" }, { label: "fires at °" }, { label: "until the next °" }];
     const rows = firing.order.map((cylinder, k) => [`${cylinder}`, firing.angles_deg[cylinder - 1], firing.intervals_deg[k]]);
     return [
       html("p", {}, `${firing.text}, `, firing.even ? WORDS.even : WORDS.uneven(short(firing.unevenness_deg, 2))),
       strip(engine, firing), bench.parts.sound,
-      tableOf({ title: WORDS.firingTable, columns, rows, units, name: engine.summary.name }),
+      table({ title: WORDS.firingTable, columns, rows }),
     ];
   },
 };

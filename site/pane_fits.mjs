@@ -1,9 +1,8 @@
 // What makes the engine smooth: counterweights and balance shafts that fit, and what they leave.
 
 import { fitOf } from "./fits.mjs";
-import { html } from "./dom.mjs";
+import { button, explained, html } from "./dom.mjs";
 import { paneFields } from "./pane_controls.mjs";
-import { tableOf } from "./table.mjs";
 import { WORDS } from "./words.mjs";
 
 /** Orders whose residuals are listed. */
@@ -15,23 +14,21 @@ const RESIDUAL_COLUMNS = [
 ];
 
 /** What an engine fitted with something leaves, beside what it is without that. */
-function residual({ core, units }, { engine, design }, ends) {
+function residual({ core, table }, { design }, ends) {
   const [before, after] = ends.map(({ json }) =>
     core.call("balance", { engine: json, rpm: design.rpm, orders: RESIDUAL_ORDERS, torque: false }).orders);
   const rows = before.map(({ order, force, moment }, k) =>
     [order, force.peak, after[k].force.peak, moment.peak, after[k].moment.peak]);
-  return tableOf({ title: WORDS.residual, columns: RESIDUAL_COLUMNS, rows, units, name: engine.summary.name });
+  return table({ title: WORDS.residual, columns: RESIDUAL_COLUMNS, rows });
 }
 
 /** Buttons that fit what a pane has to the engine of the form, or take that off. */
 export function fitButtons(slot, pane, list) {
   const has = slot.design.extra?.[pane];
-  const fit = html("button", { type: "button", disabled: !list.length }, WORDS.fit);
-  fit.addEventListener("click", () => slot.fit(pane, list));
-  const off = html("button", { type: "button", disabled: !has }, WORDS.unfit);
-  off.addEventListener("click", () => slot.fit(pane, null));
+  const fit = button(WORDS.fit, () => slot.fit(pane, list), { disabled: !list.length });
+  const off = button(WORDS.unfit, () => slot.fit(pane, null), { disabled: !has });
   const another = has && JSON.stringify(has) !== JSON.stringify(list);
-  return html("div", {}, another ? html("p", { class: "hint" }, WORDS.fitOfAnother) : "", html("p", { class: "buttons" }, fit, off));
+  return html("div", {}, another ? explained(WORDS.fitOfAnother) : "", html("p", { class: "buttons" }, fit, off));
 }
 
 const MASS_COLUMNS = [
@@ -50,9 +47,9 @@ export const counterweightsPane = {
     const rows = after.summary.weights.map(({ z, amount, direction_deg: angle, crank }, k, all) =>
       [crank ? `${k + 1}, crank ${crank}` : `${k + 1}`, z, amount, angle, k < all.length - list.length ? first : fit]);
     return [
-      html("p", { class: "hint" }, WORDS.counterweightsSaid),
-      list.length ? "" : html("p", { class: "hint" }, WORDS.nothingToFit),
-      rows.length ? tableOf({ title: WORDS.counterweights, columns: [...MASS_COLUMNS, { label: "of", key: "of" }], rows, units: tools.units, name: slot.engine.summary.name }) : "",
+      explained(WORDS.counterweightsSaid),
+      list.length ? "" : explained(WORDS.nothingToFit),
+      rows.length ? tools.table({ title: WORDS.counterweights, columns: [...MASS_COLUMNS, { label: "of", key: "of" }], rows }) : "",
       residual(tools, slot, [before, after]), fitButtons(slot, "counterweights", list),
     ];
   },
@@ -85,8 +82,8 @@ export const shaftsPane = {
       [`${shaft + 1}`, ratio, at, height, z, amount, angle, shaft < before.summary.shafts ? own : fit]);
     const columns = [{ label: "shaft" }, { label: "ratio" }, { label: "x", unit: "m" }, { label: "y", unit: "m" }, ...MASS_COLUMNS.slice(1), { label: "of", key: "of" }];
     return [
-      list.length ? "" : html("p", { class: "hint" }, WORDS.nothingToFit),
-      rows.length ? tableOf({ title: WORDS.shafts, columns, rows, units: tools.units, name: slot.engine.summary.name }) : "",
+      list.length ? "" : explained(WORDS.nothingToFit),
+      rows.length ? tools.table({ title: WORDS.shafts, columns, rows }) : "",
       residual(tools, slot, [before, after]), fitButtons(slot, "shafts", list),
     ];
   },

@@ -1,7 +1,6 @@
 // The engine on its mounts: modes of the body, and its state at rest.
 
-import { html } from "./dom.mjs";
-import { tableOf } from "./table.mjs";
+import { explained } from "./dom.mjs";
 import { WORDS } from "./words.mjs";
 
 const SPACE_AXES = ["x", "y", "z"];
@@ -10,9 +9,8 @@ export const mountsPane = {
   key: "mounts",
   title: "Mounts",
   when: ({ summary }) => summary.mounted,
-  make: async ({ engine }, { ask, units }) => {
+  make: async ({ engine }, { ask, table }) => {
     const { mounts, modes, static: still } = await ask("mounts", { engine: engine.json });
-    const named = { units, name: engine.summary.name };
     const { coordinates } = WORDS;
     // Where most of a mode's energy is says what it is called.
     const main = (energies) => {
@@ -30,25 +28,25 @@ export const mountsPane = {
     // Of causes there is the weight alone: nobody asked for torque and thrust.
     const [[sag], [weights]] = [still.displacement, still.force];
     return [
-      html("p", { class: "hint" }, WORDS.mountsSaid),
-      tableOf({
-        ...named, title: WORDS.modes,
+      explained(WORDS.mountsSaid),
+      table({
+        title: WORDS.modes,
         columns: [{ label: "mode" }, { label: "frequency Hz", key: "frequency" }, { label: "mainly" }, ...bodies.map((label) => ({ label: `${label} %`, decimals: 1 })),
           { label: "purity %", key: "purity", decimals: 1 }, { label: "loss factor" }],
         rows: ofModes.map((row, k) => [...row, main(modes.energy[k]), ...shares(modes.energy[k]), modes.purity[k], modes.loss_factor[k]]),
       }),
-      tableOf({
-        ...named, title: WORDS.strain,
+      table({
+        title: WORDS.strain,
         columns: [{ label: "mode" }, { label: "frequency Hz" }, ...mounts.map((name) => ({ label: `${name} %`, decimals: 1 }))],
         rows: ofModes.map((row, k) => [...row, ...modes.strain.map((shares) => shares[k])]),
       }),
-      tableOf({
-        ...named, title: WORDS.atRest,
+      table({
+        title: WORDS.atRest,
         columns: [{ label: "mount" }, ...SPACE_AXES.map((axis) => ({ label: `force ${axis}`, unit: "N", key: `force-${axis}` }))],
         rows: mounts.map((name, k) => [name, ...weights[k]]),
       }),
-      tableOf({
-        ...named, title: WORDS.sag,
+      table({
+        title: WORDS.sag,
         columns: [...SPACE_AXES.map((axis) => ({ label: axis, unit: "m" })), { label: WORDS.margin, unit: "m" }],
         rows: [[...sag.slice(0, 3), still.support_margin]],
       }),

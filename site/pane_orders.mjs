@@ -2,7 +2,7 @@
 
 import { bars } from "./chart.mjs";
 import { html } from "./dom.mjs";
-import { shownIn, tableOf } from "./table.mjs";
+import { shownIn } from "./table.mjs";
 import { UNITS } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -35,7 +35,7 @@ function mattering(rows) {
 }
 
 /** How the engine shakes, in sentences: those of its picture, which was made at this speed or at another. */
-function explained(core, { engine, design: { rpm }, bench: { figures } }, shown) {
+function sentencesOf(core, { engine, design: { rpm }, bench: { figures } }, shown) {
   const sentences = figures.rpm === rpm ? figures.sentences
     : core.call("explain", { engine: engine.json, shown, ...(rpm > 0 ? { rpm } : {}) });
   const list = (few) => html("ul", { class: "explained" }, ...few.map((text) => html("li", {}, text)));
@@ -47,7 +47,7 @@ function explained(core, { engine, design: { rpm }, bench: { figures } }, shown)
 export const orders = {
   key: "orders",
   title: "Orders",
-  make: async (slot, { core, units, slots }) => {
+  make: async (slot, { core, units, slots, table }) => {
     const { engine, design } = slot;
     const found = core.call("balance", { engine: engine.json, rpm: design.rpm });
     const rows = found.orders.map(row);
@@ -63,7 +63,7 @@ export const orders = {
         top: factor * Math.max(0, ...[...shown, ...others].map((each) => each[k] ?? 0)), series: [{ name, label, values: shown.map((each) => (each[k] ?? 0) * factor) }] };
     };
     return [
-      explained(core, slot, UNITS.said[units]), tableOf({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true, units, name: engine.summary.name }),
+      sentencesOf(core, slot, UNITS.said[units]), table({ title: WORDS.peaksAt(design.rpm), columns: COLUMNS, rows: [...shown, whole], total: true }),
       ...(shown.length ? [html("div", { class: "charts" }, bars(named(3, "force", "Shaking force, longest")), bars(named(6, "moment", "Rocking moment, longest")),
         ...(torque ? [bars(named(7, "torque", "Roll torque"))] : []))] : []),
     ];

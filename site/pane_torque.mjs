@@ -2,7 +2,7 @@
 
 import { anglesTicks, curves } from "./chart.mjs";
 import { paneFields } from "./pane_controls.mjs";
-import { shownIn, tableOf } from "./table.mjs";
+import { shownIn } from "./table.mjs";
 import { GASES } from "./fields.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -18,7 +18,7 @@ export const torquePane = {
   controls: (slot, tools) => paneFields(slot, "torque", [
     { name: "gas", label: WORDS.cycle, choices: { own: WORDS.ownCycle, ...GASES }, text: "petrol 1" },
   ], tools),
-  make: async (slot, { ask, units, slots }) => {
+  make: async (slot, { ask, units, slots, table }) => {
     const { engine, design: { rpm } } = slot;
     const { gas } = slot.settings.torque;
     const [kind, load] = gas.split(" ");
@@ -37,10 +37,10 @@ export const torquePane = {
     return [
       curves({
         title: WORDS.torqueOver, x: theta, lines, across: WORDS.crankAngle, up: unit, about: true, wide: slots.length === 1,
-        ticks: anglesTicks(0, theta.at(-1)).map((angle) => [angle, `${angle}°`]),
+        ticks: anglesTicks(0, theta.at(-1)),
       }),
-      tableOf({
-        title: WORDS.torqueByOrder, units, name: engine.summary.name, total: true,
+      table({
+        title: WORDS.torqueByOrder, total: true,
         columns: [{ label: "order" }, { label: "on the crank", unit: "N·m" }, { label: "roll torque on the block", unit: "N·m" }],
         rows: [["mean", crank.mean, roll.mean], ...rows.filter(([, value]) => value > 1e-6 * largest).slice(0, MOST_TORQUE_ORDERS),
           ["largest", crank.peak, roll.peak]],

@@ -1,6 +1,6 @@
 // Tables of results, in the units of the setting, which can be saved as CSV.
 
-import { html } from "./dom.mjs";
+import { button, html } from "./dom.mjs";
 import { csvOf, fileName, saveFile } from "./files.mjs";
 import { signed } from "./format.mjs";
 import { UNITS } from "./tables.mjs";
@@ -26,9 +26,8 @@ export function tableOf({ title, columns, rows, units, name, total = false }) {
   const scaled = columns.map(({ unit }) => (unit ? shownIn(units, unit) : ["", 1]));
   const head = columns.map(({ label }, k) => (scaled[k][0] ? `${label}, ${scaled[k][0]}` : label));
   const values = rows.map((row) => row.map((value, k) => (typeof value === "number" ? value * scaled[k][1] : value)));
-  const save = html("button", { type: "button", class: "quiet" }, WORDS.csv);
-  save.setAttribute("aria-label", `${title}: ${WORDS.csv}`);
-  save.addEventListener("click", () => saveFile(fileName(`${name} ${title}`, "csv"), csvOf([head, ...values]), "text/csv"));
+  const save = button(WORDS.csv, () => saveFile(fileName(`${name} ${title}`, "csv"), csvOf([head, ...values]), "text/csv"),
+    { class: "quiet", "aria-label": `${title}: ${WORDS.csv}` });
   return html("div", { class: "tabled" },
     html("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": title },
       html("table", {}, html("caption", {}, title, " ", save),

@@ -1,7 +1,7 @@
 // The whole page: a bar of commands, forms, pictures, and panes of what the engines do.
 
 import { Design } from "./design.mjs";
-import { html } from "./dom.mjs";
+import { button, explained, html } from "./dom.mjs";
 import { LONGEST_FILE, fileName, saveFile, turningPage } from "./files.mjs";
 import { inWords, unitsChoice } from "./form.mjs";
 import { designsOf, fragmentOf } from "./fragment.mjs";
@@ -9,6 +9,7 @@ import { Jobs, Outdated } from "./jobs.mjs";
 import { PANES } from "./panes.mjs";
 import { TypingError } from "./quantity.mjs";
 import { Slot } from "./slot.mjs";
+import { tableOf } from "./table.mjs";
 import { UNITS, VERSION } from "./tables.mjs";
 import { WORDS } from "./words.mjs";
 
@@ -41,7 +42,7 @@ export class Workbench {
     this.said = html("p", { class: "said", role: "status" }, trouble);
     this.share = html("span", {});
     this.working = html("span", { class: "working", hidden: true }, this.share, " ",
-      button(WORDS.cancel, WORDS.cancel, () => this.jobs.cancel()));
+      titled(WORDS.cancel, WORDS.cancel, () => this.jobs.cancel()));
     this.forms = html("div", { class: "forms" });
     this.stages = html("div", { class: "stages" });
     this.panes = html("div", { class: "panes" });
@@ -77,7 +78,7 @@ export class Workbench {
       if (this.file.files.length) this.openFile(this.file.files[0]);
       this.file.value = "";
     });
-    this.compare = button(WORDS.compare, WORDS.compareSaid, () => (this.slots.length > 1 ? this.remove() : this.add(null)));
+    this.compare = titled(WORDS.compare, WORDS.compareSaid, () => (this.slots.length > 1 ? this.remove() : this.add(null)));
     this.choice = unitsChoice(this.units, (units) => {
       this.units = units;
       for (const slot of this.slots) slot.setUnits(units);
@@ -85,11 +86,11 @@ export class Workbench {
     this.bar = html("div", { class: "bar", role: "banner" },
       html("p", { class: "brand" }, "crankpin", html("small", {}, "workbench")), this.file,
       html("div", { class: "commands" },
-        button(WORDS.open, WORDS.openSaid, () => this.file.click()),
-        button(WORDS.save, WORDS.saveSaid, () => this.save()),
-        button(WORDS.link, WORDS.linkSaid, () => this.copyLink()),
-        button(WORDS.page, WORDS.pageSaid, () => this.savePage()),
-        button(WORDS.print, WORDS.printSaid, () => print()),
+        titled(WORDS.open, WORDS.openSaid, () => this.file.click()),
+        titled(WORDS.save, WORDS.saveSaid, () => this.save()),
+        titled(WORDS.link, WORDS.linkSaid, () => this.copyLink()),
+        titled(WORDS.page, WORDS.pageSaid, () => this.savePage()),
+        titled(WORDS.print, WORDS.printSaid, () => print()),
         this.compare, this.choice, this.working));
     this.chooser = html("div", { class: "chooser", role: "tablist", "aria-label": WORDS.engine, hidden: true });
   }
@@ -97,16 +98,15 @@ export class Workbench {
   makeTabs() {
     this.tabs = html("div", { class: "tabs", role: "tablist", "aria-label": WORDS.panes });
     this.buttons = PANES.map((pane) => {
-      const tab = html("button", { type: "button", role: "tab", id: `tab-${pane.key}`, "aria-controls": "pane" }, pane.title);
-      tab.addEventListener("click", () => this.choose(pane));
-      return tab;
+      const attributes = { role: "tab", id: `tab-${pane.key}`, "aria-controls": "pane" };
+      return button(pane.title, () => this.choose(pane), attributes);
     });
-    this.skip = button(WORDS.toResults, WORDS.panes, () => {
+    this.skip = titled(WORDS.toResults, WORDS.panes, () => {
       this.buttons.find((tab) => tab.tabIndex === 0).focus({ preventScroll: true });
       this.tabs.scrollIntoView();
     });
     this.skip.classList.add("skip");
-    this.back = button(WORDS.toForm, WORDS.engine, () => {
+    this.back = titled(WORDS.toForm, WORDS.engine, () => {
       this.current.form.element.querySelector("select").focus({ preventScroll: true });
       this.forms.scrollIntoView();
     });
@@ -165,9 +165,8 @@ export class Workbench {
       slot.name = several ? [WORDS.first, WORDS.second][k] : WORDS.engine;
       slot.form.element.setAttribute("aria-label", slot.name);
       slot.form.element.hidden = k !== shown;
-      const tab = html("button", { type: "button", role: "tab", "aria-selected": `${k === shown}`, tabindex: k === shown ? 0 : -1 }, slot.name);
-      tab.addEventListener("click", () => this.arrange(k));
-      return tab;
+      const attributes = { role: "tab", "aria-selected": `${k === shown}`, tabindex: k === shown ? 0 : -1 };
+      return button(slot.name, () => this.arrange(k), attributes);
     });
     arrows(this.chooser, tabs);
     this.chooser.replaceChildren(...tabs);
@@ -211,8 +210,8 @@ export class Workbench {
     } catch (error) {
       if (!(error instanceof Outdated)) throw error;
       if (turn !== this.turn) return;
-      boxes[0].results.replaceChildren(html("p", { class: "hint" }, `${WORDS.cancelled} `,
-        button(WORDS.again, WORDS.again, () => this.refresh())));
+      boxes[0].results.replaceChildren(explained(`${WORDS.cancelled} `,
+        titled(WORDS.again, WORDS.again, () => this.refresh())));
     }
   }
 
@@ -233,7 +232,9 @@ export class Workbench {
 
   async made(pane, slot, slots) {
     const ask = (name, given) => this.jobs.ask(`${slot.id} ${name}`, name, given);
-    const tools = { ask, core: this.core, units: this.units, slots, again: () => this.refresh() };
+    const { core, units } = this;
+    const table = (given) => tableOf({ units, name: slot.engine.summary.name, ...given });
+    const tools = { ask, core, units, slots, table };
     try {
       return await pane.make(slot, tools);
     } catch (error) {
@@ -329,11 +330,7 @@ export class Workbench {
 const linkFault = (error) => (error.hint ? error.message : WORDS.badLink);
 
 /** A button with a name for people and a longer one for those who do not see the page. */
-function button(text, title, act) {
-  const element = html("button", { type: "button", title }, text);
-  element.addEventListener("click", act);
-  return element;
-}
+const titled = (text, title, act) => button(text, act, { title });
 
 const focusable = (element) => [...element.querySelectorAll("button, summary, [tabindex]")];
 

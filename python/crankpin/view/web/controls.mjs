@@ -1,6 +1,6 @@
 // The reader's controls: the crank angle and how it plays, and what settings are made of.
 
-import { fixed, html, numbered, show, svg } from "./dom.mjs";
+import { button, fixed, html, numbered, select, show, svg } from "./dom.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** Exaggerations of the rocking; the first is none. */
@@ -24,17 +24,12 @@ const ICONS = {
 export class Transport {
   constructor(view) {
     this.view = view;
-    const button = (name, act, attributes = {}) => {
-      const icon = svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" },
-        svg("path", { d: ICONS[name] }));
-      const element = html("button", { type: "button", ...attributes },
-        icon, html("span", {}, STRINGS[name]));
-      element.addEventListener("click", act);
-      return element;
-    };
-    this.play = button("play", () => view.set({ playing: !view.state.playing }));
-    this.stop = button("stop", () => view.set({ playing: false }));
-    this.reverse = button("reverse", () => view.set({ reverse: !view.state.reverse }));
+    const command = (name, act) => button([
+      svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: ICONS[name] })),
+      html("span", {}, STRINGS[name])], act);
+    this.play = command("play", () => view.set({ playing: !view.state.playing }));
+    this.stop = command("stop", () => view.set({ playing: false }));
+    this.reverse = command("reverse", () => view.set({ reverse: !view.state.reverse }));
     this.angle = html("input", {
       type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
     });
@@ -51,7 +46,7 @@ export class Transport {
     typed(this.angle, (value) => view.set({ angle_deg: value, playing: false }), () => view.pose());
     this.element = html("div", { class: "transport" },
       html("div", { class: "buttons" }, this.play, this.stop,
-        button("stepBack", () => view.step(-1)), button("stepForward", () => view.step(1)),
+        command("stepBack", () => view.step(-1)), command("stepForward", () => view.step(1)),
         this.step, this.reverse),
       html("div", { class: "pace" }, html("span", {}, STRINGS.paceShort), this.pace, this.paceShown),
       html("div", { class: "angle" },
@@ -142,10 +137,8 @@ export function pair(label, described, name, least, most, step, unit, act, settl
 
 /** A choice of one entry of the view's state; of a disabled one the present name is a text. */
 export function choice(key, names, view, disabled = false) {
-  const element = html("select", { "aria-label": STRINGS.choices[key], disabled },
-    ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
+  const element = select(names, (value) => view.set({ [key]: value }), { "aria-label": STRINGS.choices[key], disabled });
   element.value = view.state[key];
-  element.addEventListener("change", () => view.set({ [key]: element.value }));
   return element;
 }
 

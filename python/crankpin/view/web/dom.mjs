@@ -79,8 +79,33 @@ export function centre(circle, [x, y]) {
   circle.setAttribute("cy", y.toFixed(2));
 }
 
-/** Act on a pointer from where it is pressed, which `begins`, to where it is let go. */
-export function dragged(element, act) {
+/** A button that acts. */
+export function button(content, act, attributes = {}) {
+  const element = html("button", { type: "button", ...attributes }, ...[content].flat());
+  element.addEventListener("click", act);
+  return element;
+}
+
+/** A choice of values, given with their names; `act` takes the one that is chosen. */
+export function select(names, act, attributes = {}) {
+  const element = html("select", attributes, ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
+  element.addEventListener("change", () => act(element.value));
+  return element;
+}
+
+/** A line of explanation. */
+export const explained = (...parts) => html("p", { class: "hint" }, ...parts);
+
+/** Where a pointer is in the pixels of a picture, which may be scaled. */
+export const pointerIn = (picture, { clientX, clientY }) =>
+  new DOMPoint(clientX, clientY).matrixTransform(picture.getScreenCTM().inverse());
+
+/** The part of the way from one side of a picture to another at which a pointer is. */
+export const shareAt = (picture, event, left, right) =>
+  Math.min(Math.max((pointerIn(picture, event).x - left) / (right - left), 0), 1);
+
+/** Act on a pointer from where it is pressed, which `begins`, to where it is let go, which `ends` it. */
+export function dragged(element, act, ends = null) {
   let held = false;
   element.addEventListener("pointerdown", (event) => {
     held = true;
@@ -88,5 +113,10 @@ export function dragged(element, act) {
     act(event, true);
   });
   element.addEventListener("pointermove", (event) => held && act(event, false));
-  for (const end of ["pointerup", "pointercancel"]) element.addEventListener(end, () => { held = false; });
+  for (const end of ["pointerup", "pointercancel"]) {
+    element.addEventListener(end, (event) => {
+      if (held) ends?.(event);
+      held = false;
+    });
+  }
 }

@@ -1,7 +1,7 @@
 // The mounts as numbers: a table of all, and controls for the one that is chosen.
 
 import { pair } from "./controls.mjs";
-import { html, numbered, show } from "./dom.mjs";
+import { button, explained, html, numbered, show } from "./dom.mjs";
 import { fieldUnit } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
@@ -25,14 +25,12 @@ export class Editor {
     this.rows = mounts.map(({ name }, k) => {
       const label = numbered(html, "span", "mount-name");
       show(label, name, name);
-      const button = html("button", { type: "button" }, label);
-      button.addEventListener("click", () => choose(k));
+      const chooses = button(label, () => choose(k));
       const numbers = ["x", "y", "z", "k1", "k2", "k3"].map((part) =>
         numbered(html, "td", `mount-${k + 1}-${part}`));
-      return { button, numbers, element: html("tr", {}, html("th", { scope: "row" }, button), ...numbers) };
+      return { chooses, numbers, element: html("tr", {}, html("th", { scope: "row" }, chooses), ...numbers) };
     });
-    this.reset = html("button", { type: "button" }, MOUNT_STRINGS.asBefore);
-    this.reset.addEventListener("click", reset);
+    this.reset = button(MOUNT_STRINGS.asBefore, reset);
     this.controls = html("div", { class: "settings" });
     this.code = numbered(html, "code", "python");
     this.element = html("div", {},
@@ -49,9 +47,9 @@ export class Editor {
     this.reset.disabled = !changed;
     if (chosen !== this.chosen) this.choose(mounts, chosen);
     mounts.forEach(({ at, stiffness }, k) => {
-      const { button, numbers, element } = this.rows[k];
+      const { chooses, numbers, element } = this.rows[k];
       element.classList.toggle("chosen", k === chosen);
-      button.setAttribute("aria-pressed", k === chosen);
+      chooses.setAttribute("aria-pressed", k === chosen);
       at.forEach((value, axis) => show(numbers[axis], value, this.length.text(value)));
       [0, 1, 2].forEach((axis) => (stiffness
         ? show(numbers[3 + axis], stiffness[axis], this.stiffness.text(stiffness[axis]))
@@ -98,7 +96,7 @@ export class Editor {
     const title = numbered(html, "b", "mount-name");
     show(title, name, name);
     this.controls.replaceChildren(title, ...[...this.places, ...this.stiffnesses].map(({ element }) => element),
-      ...(stiffness ? [] : [html("p", { class: "hint" }, MOUNT_STRINGS.tableIsFixed)]));
+      ...(stiffness ? [] : [explained(MOUNT_STRINGS.tableIsFixed)]));
   }
 
   settle(mounts) {

@@ -2,7 +2,7 @@
 
 import { scale } from "./complex.mjs";
 import { choice } from "./controls.mjs";
-import { html, numbered, show } from "./dom.mjs";
+import { explained, html, numbered, show } from "./dom.mjs";
 import { ENDS, Ends } from "./ends.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
@@ -46,7 +46,7 @@ export class Full extends View {
     }, this.units.length);
     this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
     this.stretched = numbered(html, "span", "stretch");
-    this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
+    this.stretchedLine = explained(`${STRINGS.stretched} `, this.stretched);
     this.sentences = new Sentences(figures);
     this.sound = figures.controls.includes("sound") ? new Sound(figures.exhaust_opens_deg) : null;
     this.element = region(title, "",
@@ -68,8 +68,8 @@ export class Full extends View {
         this.timelineBox),
       // The last, as its height changes with the orders that matter.
       section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
-      html("p", { class: "hint" }, `${STRINGS.block} ${STRINGS.ownScales}`),
-      html("p", { class: "hint" }, STRINGS.keys),
+      explained(`${STRINGS.block} ${STRINGS.ownScales}`),
+      explained(STRINGS.keys),
     );
     this.resized = new ResizeObserver(([entry]) => {
       this.width = entry.contentRect.width;

@@ -1,7 +1,7 @@
 // What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
 
 import { DEGREE, add, reduced, scale } from "./complex.mjs";
-import { centre, dragged, fixed, place, svg, translate } from "./dom.mjs";
+import { centre, dragged, fixed, place, pointerIn, svg, translate } from "./dom.mjs";
 import { BORE, boreEnds, opposedTo, pinOf } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
@@ -86,14 +86,12 @@ export class Handle {
   drag(angle, turnTo) {
     let last;
     let reached;
-    const pointed = (event) => {
-      // The picture may be scaled: back from the screen to its own pixels.
-      const at = new DOMPoint(event.clientX, event.clientY)
-        .matrixTransform(this.scene.element.getScreenCTM().inverse());
-      return Math.atan2(this.centre[1] - at.y, at.x - this.centre[0]) / DEGREE;
+    const turnedTo = (event) => {
+      const { x, y } = pointerIn(this.scene.element, event);
+      return Math.atan2(this.centre[1] - y, x - this.centre[0]) / DEGREE;
     };
     dragged(this.hit, (event, begins) => {
-      const now = pointed(event);
+      const now = turnedTo(event);
       if (begins) {
         reached = angle();
         event.preventDefault();

@@ -1,6 +1,6 @@
 // The table of modes: frequency, motion and where the energy is; a choice of one shows its shape.
 
-import { html, numbered, show } from "./dom.mjs";
+import { button, explained, html, numbered, show } from "./dom.mjs";
 import { short } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
@@ -11,16 +11,16 @@ export class Modes {
   /** `choose` takes the number of a mode from 0, or null for what the engine makes; without it none is chosen. */
   constructor(choose) {
     this.rows = Array.from({ length: 6 }, (_, k) => {
-      const button = html("button", { type: "button", "aria-pressed": "false", disabled: !choose }, number(k));
-      button.addEventListener("click", () => choose(button.getAttribute("aria-pressed") === "true" ? null : k));
+      const chooses = button(number(k), () => choose(chooses.getAttribute("aria-pressed") === "true" ? null : k),
+        { "aria-pressed": "false", disabled: !choose });
       const cell = (name) => numbered(html, "td", `mode-${k + 1}-${name}`, { class: name });
       const cells = {
         frequency: cell("frequency"), main: html("td", { class: "main" }), purity: cell("purity"),
         shares: COORDINATES.map(([name]) => cell(name)),
       };
-      const element = html("tr", {}, html("th", { scope: "row" }, button), cells.frequency, cells.main, cells.purity,
+      const element = html("tr", {}, html("th", { scope: "row" }, chooses), cells.frequency, cells.main, cells.purity,
         ...cells.shares);
-      return { button, cells, element };
+      return { chooses, cells, element };
     });
     const heads = [MOUNT_STRINGS.mode, MOUNT_STRINGS.frequencyHead, MOUNT_STRINGS.mainMotion, MOUNT_STRINGS.share];
     const head = (text, name = "") => html("th", { scope: "col", class: name }, text);
@@ -28,7 +28,7 @@ export class Modes {
       html("thead", {}, html("tr", {}, ...heads.map((text) => head(text)),
         ...COORDINATES.map(([name]) => head(MOUNT_STRINGS.coordinates[name], "of-coordinate")))),
       html("tbody", {}, ...this.rows.map(({ element }) => element)));
-    this.note = html("p", { class: "hint" });
+    this.note = explained();
     this.element = html("div", {}, this.table, this.note);
   }
 
@@ -39,11 +39,11 @@ export class Modes {
     this.note.textContent = modes ? (free ? MOUNT_STRINGS.freeMotion : "") : MOUNT_STRINGS.noModes;
     this.note.hidden = !this.note.textContent;
     if (!modes) return;
-    this.rows.forEach(({ button, cells, element }, k) => {
+    this.rows.forEach(({ chooses, cells, element }, k) => {
       const { frequency, energy, purity } = modes[k];
       element.classList.toggle("chosen", k === chosen);
-      button.setAttribute("aria-pressed", k === chosen);
-      button.setAttribute("aria-label", `${MOUNT_STRINGS.mode} ${k + 1}`);
+      chooses.setAttribute("aria-pressed", k === chosen);
+      chooses.setAttribute("aria-label", `${MOUNT_STRINGS.mode} ${k + 1}`);
       show(cells.frequency, frequency, frequency ? frequency.toFixed(2) : "0");
       show(cells.purity, purity, `${purity.toFixed(0)} %`);
       const shares = COORDINATES.map(([, place]) => energy[place]);

@@ -2,7 +2,7 @@
 
 import { magnitude, reduced, unit } from "./complex.mjs";
 import { Exaggeration, FASTEST, choice, chosen, pair } from "./controls.mjs";
-import { fixed, html, numbered, show } from "./dom.mjs";
+import { explained, fixed, html, numbered, show } from "./dom.mjs";
 import { Editor } from "./editor.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { Modes } from "./modes.mjs";
@@ -82,13 +82,13 @@ export class Mounted extends Turning {
     };
     this.drawnLine = html("p", { class: "hint drawn" });
     this.stretched = numbered(html, "span", "stretch");
-    this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
+    this.stretchedLine = explained(`${STRINGS.stretched} `, this.stretched);
     this.trouble = html("p", { class: "hint trouble", role: "status" }, MOUNT_STRINGS.resonance);
     this.modesTable = new Modes(has("mode") && ((mode) => this.set({ mode, exaggeration: null })));
     this.runUp = new RunUp(has("rpm") && ((rpm) => this.set({ rpm, mode: null })));
     this.quantity = choice("quantity", MOUNT_STRINGS.quantity, this, !has("view"));
     this.ofOrder = numbered(html, "span", "run-up-order");
-    this.runUpHint = html("p", { class: "hint" });
+    this.runUpHint = explained();
     this.runUpBox = html("div", { class: "run-up-box" }, this.runUp.element);
     this.editor = new Editor(mounted, this.units, {
       ...acts, change: (k, changes) => this.change(k, changes), reset: () => this.set({ mounts: this.own }),
@@ -117,8 +117,8 @@ export class Mounted extends Turning {
       html("div", { class: "dials values" }, ...Object.keys(this.values).map((name) =>
         panel(MOUNT_STRINGS.effectiveValues[name], this.listOf(name)))),
       has("mounts") ? section(MOUNT_STRINGS.mountsTitle, this.editor.element) : "",
-      html("p", { class: "hint" }, `${MOUNT_STRINGS.counted}`, ...listed, `, ${MOUNT_STRINGS.countedRest}`),
-      html("p", { class: "hint" }, STRINGS.keys));
+      explained(`${MOUNT_STRINGS.counted}`, ...listed, `, ${MOUNT_STRINGS.countedRest}`),
+      explained(STRINGS.keys));
     this.resized = new ResizeObserver(([entry]) => {
       this.width = entry.contentRect.width;
       this.layoutRunUp();

@@ -1,6 +1,6 @@
 // Force or motion over engine speed, on axes of decades, with the modes that an order crosses.
 
-import { dragged, fixed, path, place, show, numbered, svg } from "./dom.mjs";
+import { dragged, fixed, numbered, path, place, shareAt, show, svg } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 import { STRINGS } from "./strings.mjs";
@@ -32,10 +32,8 @@ export class RunUp {
     this.element = svg("svg", { class: "run-up", role: "img", "aria-label": MOUNT_STRINGS.runUpDescribed, height: HIGH },
       this.grid, this.frame, this.marks, ...this.lines, this.cursor, this.note);
     if (choose) dragged(this.element, (event) => {
-      const box = this.element.getBoundingClientRect();
-      const share = (event.clientX - box.left - MARGIN.left) / (this.right - MARGIN.left);
       const [low, high] = this.range;
-      choose(Math.round(low * (high / low) ** Math.min(Math.max(share, 0), 1)));
+      choose(Math.round(low * (high / low) ** shareAt(this.element, event, MARGIN.left, this.right)));
     });
   }
 

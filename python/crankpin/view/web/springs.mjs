@@ -1,6 +1,6 @@
 // Mounts in a picture of the engine: springs at their places, which the reader can move, and the body's box.
 
-import { numbered, path, place, show, svg } from "./dom.mjs";
+import { centre, dragged, numbered, path, place, pointerIn, show, svg, translate } from "./dom.mjs";
 import { fieldUnit } from "./format.mjs";
 import { MOUNT_STRINGS } from "./mount_strings.mjs";
 
@@ -76,33 +76,23 @@ export class Springs {
     return { element, springs, ends, knob, label };
   }
 
-
   drag(element, k) {
-    let start = null;
-    const pointed = (event) => new DOMPoint(event.clientX, event.clientY)
-      .matrixTransform(this.scene.element.getScreenCTM().inverse());
+    let start;
     const moved = (event) => {
-      const at = pointed(event);
-      return shifted(start.place, this.scene.projection.moved([at.x - start.x, at.y - start.y]));
+      const { x, y } = pointerIn(this.scene.element, event);
+      return shifted(start.place, this.scene.projection.moved([x - start.x, y - start.y]));
     };
-    element.addEventListener("pointerdown", (event) => {
-      const { x, y } = pointed(event);
+    dragged(element, (event, begins) => {
+      if (!begins) {
+        start.moves = true;
+        this.move(k, moved(event), true);
+        return;
+      }
+      const { x, y } = pointerIn(this.scene.element, event);
       start = { x, y, place: this.places[k], moves: false };
-      element.setPointerCapture(event.pointerId);
       element.focus({ preventScroll: true });
       event.preventDefault();
-    });
-    element.addEventListener("pointermove", (event) => {
-      if (!start) return;
-      start.moves = true;
-      this.move(k, moved(event), true);
-    });
-    for (const end of ["pointerup", "pointercancel"]) {
-      element.addEventListener(end, (event) => {
-        if (start?.moves) this.move(k, moved(event), false);
-        start = null;
-      });
-    }
+    }, (event) => start.moves && this.move(k, moved(event), false));
   }
 
   /** Points that the picture must contain. */
@@ -159,12 +149,10 @@ export class Springs {
       return point.map((part, k) => part + by[k]);
     };
     this.moved.setAttribute("d", this.box(displaced));
-    const [x, y] = projection.point(displaced(this.figures.cg));
-    this.centre.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+    translate(this.centre, projection.point(displaced(this.figures.cg)));
     this.mounts.forEach(({ springs, ends, knob }, k) => {
       const at = projection.point(displaced(this.places[k]));
-      knob.setAttribute("cx", at[0].toFixed(2));
-      knob.setAttribute("cy", at[1].toFixed(2));
+      centre(knob, at);
       let grounds = "";
       springs.forEach((spring, axis) => {
         const foot = projection.point(this.feet[k][axis]);

@@ -2,7 +2,8 @@
 //
 // Everything that is mechanics is the library's: of each mount the matrix of its deflections, which is linear in its
 // place, and its stiffness; the body's coordinates of unit mass; the loads of each order. Here they are evaluated,
-// added up, and handed to linear algebra.
+// added up, and handed to linear algebra. That the page solves them, and the crank's speed over a cycle in `speed.mjs`,
+// is a promise of the manual: a saved page has no core, and is exact at any rod ratio, place and stiffness.
 
 import { add, multiply, scale } from "./complex.mjs";
 import { SIX, applied, singular, solveComplex } from "./linear.mjs";
@@ -20,38 +21,34 @@ export class Suspension {
         moved.reduce((sum, by, axis) => sum + by * given.slopes[axis][i][j], value)));
       return { given, stiffness, deflection, unit: deflection.map((row) => applied(columns, row)) };
     });
-    // What is the same at all frequencies, and what goes with the angular speed.
-    this.constant = new Terms();
-    this.viscous = new Terms();
-    for (const { given, stiffness, deflection, unit } of this.mounts) {
-      if (given.table) continue;
-      stiffness.forEach((value, axis) => {
-        this.constant.add(deflection[axis], unit[axis], scale(given.unit[axis], value));
-        this.viscous.add(deflection[axis], unit[axis], given.viscous[axis]);
-      });
-    }
     const inUnits = (loads) => loads.map((load) =>
       [0, 1].map((part) => applied(columns, load.map((value) => value[part]))));
     this.inertia = inUnits(figures.inertia);
     this.gas = inUnits(figures.gas);
   }
 
-  /** Stiffnesses along the axes of each mount at a frequency in Hz, without their losses. */
-  stiffnesses(hertz) {
-    return this.mounts.map(({ given, stiffness }) => {
-      if (given.table) return tabled(given.table, hertz).map(([re]) => re);
-      const along = stiffness.map((value, axis) => value * given.unit[axis][0]);
-      if (given.track) along[0] += fluid(given.track, hertz / given.track.frequency)[0];
-      return along;
-    });
+  /**
+   * The directions of all mounts at a frequency in Hz: complex stiffness `k`, and deflection by the motion and by
+   * coordinates of unit mass; null outside a table.
+   */
+  directions(hertz) {
+    const omega = 2 * Math.PI * hertz;
+    const all = [];
+    for (const { given, stiffness, deflection, unit } of this.mounts) {
+      const along = given.table ? tabled(given.table, hertz)
+        : stiffness.map((value, axis) => add(scale(given.unit[axis], value), scale(given.viscous[axis], omega)));
+      if (!along) return null;
+      if (given.track) along[0] = add(along[0], fluid(given.track, hertz / given.track.frequency));
+      along.forEach((k, axis) => all.push({ k, deflection: deflection[axis], unit: unit[axis] }));
+    }
+    return all;
   }
 
   /** Modes, ascending: frequency in Hz, shape, shares of energy in % and the largest; null where there are none. */
   modes() {
-    const along = this.stiffnesses(this.figures.frequency ?? 0);
-    if (along.flat().some((value) => value < 0)) return null;
-    const rows = this.mounts.flatMap(({ unit }, k) =>
-      unit.map((row, axis) => row.map((value) => value * Math.sqrt(along[k][axis]))));
+    const along = this.directions(this.figures.frequency ?? 0);
+    if (along.some(({ k: [stiffness] }) => stiffness < 0)) return null;
+    const rows = along.map(({ k: [stiffness], unit }) => unit.map((value) => value * Math.sqrt(stiffness)));
     const { unit, momentum } = this.figures;
     const weights = momentum.map((row) => Math.sqrt(row.reduce((sum, value) => sum + value * value, 0)));
     const modes = singular(rows).map(({ value, vector }) => {
@@ -69,87 +66,33 @@ export class Suspension {
     return inGroups(modes, this.figures.equal_frequencies);
   }
 
-  /** Terms of stiffness at a frequency in Hz, of which the real parts of the matrix lack the mass; null outside a table. */
-  terms(hertz) {
-    const sum = new Terms();
-    const omega = 2 * Math.PI * hertz;
-    for (const key of ["re", "im", "forceRe", "forceIm"]) {
-      const [constant, viscous, to] = [this.constant[key], this.viscous[key], sum[key]];
-      for (let k = 0; k < to.length; k++) to[k] = constant[k] + omega * viscous[k];
-    }
-    for (const { given, deflection, unit } of this.mounts) {
-      if (given.track) sum.add(deflection[0], unit[0], fluid(given.track, hertz / given.track.frequency));
-      if (!given.table) continue;
-      const along = tabled(given.table, hertz);
-      if (!along) return null;
-      along.forEach((value, axis) => sum.add(deflection[axis], unit[axis], value));
-    }
-    return sum;
-  }
-
   /** Motion of the CG and rotation and force on the body of an order, phasors; null where there is no answer. */
   at(index, rpm) {
     const { orders, unit } = this.figures;
-    const terms = this.terms((orders[index] * rpm) / 60);
-    if (!terms) return null;
+    const along = this.directions((orders[index] * rpm) / 60);
+    if (!along) return null;
     const square = angularSpeed(rpm) ** 2;
     const [x, y] = [0, 1].map((part) =>
       Float64Array.from(this.inertia[index][part], (value, k) => square * value + this.gas[index][part][k]));
-    for (let i = 0; i < SIX; i++) terms.re[i * SIX + i] -= orders[index] ** 2 * square;
-    if (!solveComplex(terms.re, terms.im, x, y)) return null;
-    const motion = unit.map((row) => {
-      let [re, im] = [0, 0];
-      for (let k = 0; k < SIX; k++) {
-        re += row[k] * x[k];
-        im += row[k] * y[k];
-      }
-      return [re, im];
-    });
-    return { order: orders[index], motion, force: terms.force(x, y) };
-  }
-}
-
-/** Sums over the directions of mounts: of the equations' matrix, and of the forces on what carries the mounts. */
-class Terms {
-  constructor() {
-    this.re = new Float64Array(SIX * SIX);
-    this.im = new Float64Array(SIX * SIX);
-    this.forceRe = new Float64Array(3 * SIX);
-    this.forceIm = new Float64Array(3 * SIX);
-  }
-
-  /**
-   * Add a direction of a complex stiffness: its deflection by the motion, and by coordinates of unit mass.
-   *
-   * @param {number[]} deflection
-   * @param {number[]} unit
-   * @param {number[]} stiffness
-   */
-  add(deflection, unit, [k, loss]) {
-    for (let j = 0; j < SIX; j++) {
-      const [stiff, lossy] = [k * unit[j], loss * unit[j]];
+    const [re, im] = [0, 1].map(() => new Float64Array(SIX * SIX));
+    for (let i = 0; i < SIX; i++) re[i * SIX + i] = -(orders[index] ** 2) * square;
+    for (const { k: [stiff, loss], unit: row } of along) {
       for (let i = 0; i < SIX; i++) {
-        this.re[i * SIX + j] += unit[i] * stiff;
-        this.im[i * SIX + j] += unit[i] * lossy;
-      }
-      for (let i = 0; i < 3; i++) {
-        this.forceRe[i * SIX + j] += deflection[i] * stiff;
-        this.forceIm[i * SIX + j] += deflection[i] * lossy;
+        for (let j = 0; j < SIX; j++) {
+          const product = row[i] * row[j];
+          re[i * SIX + j] += stiff * product;
+          im[i * SIX + j] += loss * product;
+        }
       }
     }
-  }
-
-  /** The force of a motion in coordinates of unit mass, along x, y and z. */
-  force(x, y) {
-    return [0, 1, 2].map((axis) => {
-      let [re, im] = [0, 0];
-      for (let k = 0; k < SIX; k++) {
-        const [stiff, lossy] = [this.forceRe[axis * SIX + k], this.forceIm[axis * SIX + k]];
-        re += stiff * x[k] - lossy * y[k];
-        im += stiff * y[k] + lossy * x[k];
-      }
-      return [re, im];
-    });
+    if (!solveComplex(re, im, x, y)) return null;
+    const dot = (row) => [x, y].map((part) => row.reduce((sum, value, k) => sum + value * part[k], 0));
+    const force = [[0, 0], [0, 0], [0, 0]];
+    for (const { k, deflection, unit: row } of along) {
+      const pull = multiply(k, dot(row));
+      force.forEach((sum, axis) => { force[axis] = add(sum, scale(pull, deflection[axis])); });
+    }
+    return { order: orders[index], motion: unit.map(dot), force };
   }
 }
 

@@ -1,7 +1,7 @@
 // Histories of force, moment and torque over a period, above the strokes of each cylinder: one cursor.
 
 import { reduced } from "./complex.mjs";
-import { dragged, fixed, svg } from "./dom.mjs";
+import { dragged, fixed, shareAt, svg } from "./dom.mjs";
 import { HEIGHT, History } from "./history.mjs";
 import { STRINGS } from "./strings.mjs";
 import { ROW, Strokes } from "./strokes.mjs";
@@ -22,7 +22,8 @@ export class Timeline {
     });
     this.cursor = svg("path", { class: "cursor" });
     this.axis = svg("g");
-    this.scrub(turnTo);
+    dragged(this.element, (event) =>
+      turnTo(Math.round(shareAt(this.element, event, this.left, this.right) * this.period)));
   }
 
   /** Draw everything for a width in pixels; `histories` are the rows of curves, from the top. */
@@ -75,14 +76,6 @@ export class Timeline {
         svg("path", { class: "grid", d: `M${x} 4V${top + 3}` }),
         fixed(svg, "text", "tick", angle, `${angle}°`, { class: "degrees", x, y: top + 16 }),
       ];
-    });
-  }
-
-  scrub(turnTo) {
-    dragged(this.element, (event) => {
-      const box = this.element.getBoundingClientRect();
-      const share = (event.clientX - box.left - this.left) / (this.right - this.left);
-      turnTo(Math.round(Math.min(Math.max(share, 0), 1) * this.period));
     });
   }
 }
