@@ -9,7 +9,7 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from crankpin.plot import balancing
+from crankpin.plot import balancing, painter
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
@@ -42,7 +42,7 @@ def test_fit_is_drawn_with_and_without_shafts(quantity: str) -> None:
         assert drawn[name].get_ydata().tolist() == list(range(len(parts)))
     rows = [text.get_text() for text in ax.get_yticklabels()]
     assert rows == [f"order {each.order} {each.part}".strip() for each in parts]
-    (paths,) = (each for each in ax.collections if each.get_gid() == balancing.CHANGE)
+    (paths,) = (each for each in ax.collections if each.get_gid() == painter.CHANGE)
     assert isinstance(paths, LineCollection)
     ends = [segment[:, 0].tolist() for segment in paths.get_segments()]
     assert ends == [[each.after, each.before] for each in parts]

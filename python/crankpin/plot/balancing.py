@@ -13,11 +13,10 @@ from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
 from crankpin.plot.layout import add_legend, axes_or_new, note_zero, set_title
-from crankpin.plot.painter import draw_curves, highest, x_axis, y_axis
+from crankpin.plot.painter import draw_changes, draw_curves, highest, x_axis, y_axis
 from crankpin.plot.style import (
     MARKERS,
     SERIES,
-    background,
     count_series,
     font_of,
     foreground,
@@ -60,9 +59,6 @@ def wide_enough(ax: Axes, largest: float) -> None:
 
 # --- balance shafts ------------------------------------------------------------------------------
 
-CHANGE = "crankpin change"
-"""Marks the lines from without to with shafts by their gid."""
-
 
 @picture.register(BalanceShafts)
 def _balance_shafts(
@@ -96,15 +92,8 @@ def _balance_shafts(
         label = labels.name_of(result.engine)
     wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
     rows = rows_for(ax, [f"order {part.order} {part.part}".rstrip() for part in parts])
-    ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
-    # What does not change is a dot in a ring.
-    for values, text, size in ((before, "without shafts", 9.0), (after, "with shafts", 4.5)):
-        (look,) = series(ax, 1, style)
-        marks: dict[str, Any] = {"marker": "o", "markersize": size} | look | {"linestyle": ""}
-        if values is before:
-            marks |= {"markerfacecolor": background(ax), "markeredgewidth": 1.5}
-        named = f"{label}, {text}" if label else text
-        ax.plot(values, rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
+    of = f"{label}, " if label else ""
+    draw_changes(ax, rows, {f"{of}without shafts": before, f"{of}with shafts": after}, style)
     kind = QUANTITIES[name]
     x_axis(ax, units.headed(f"{kind.words} over ω²", kind.unit_over_square))
     add_legend(ax)

@@ -299,6 +299,18 @@ def _cut(place: Axes | FigureBase, text: str, room: float, font: FontProperties)
 # --- titles and labels --------------------------------------------------------------------------
 
 
+def _write(
+    text: Text,
+    lines: Sequence[str],
+    place: Axes | FigureBase,
+    along: Literal["width", "height"] = "width",
+    most: int | None = None,
+) -> None:
+    """Write lines, fitted to the extent of axes or a figure."""
+    text.set_text(plain_text("\n".join(lines)))
+    _fit(place, text, _FittedText(text, lines, place, along, most))
+
+
 def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     """Put lines above axes on the left; of several results, the lines that all have.
 
@@ -309,45 +321,37 @@ def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
         lines = tuple(line for line in lines if plain_text(line) in before)
     size = font_of("axes.titlesize", "medium").get_size()
     remaining = [line for line in lines if line]
-    text = ax.set_title(plain_text("\n".join(remaining)), loc="left", fontsize=size, pad=pad)
+    text = ax.set_title("", loc="left", fontsize=size, pad=pad)
     short = _cell(ax, "height") < SHORT * _root(ax).dpi
-    _fit(ax, text, _FittedText(text, remaining, ax, most=2 if short else None))
+    _write(text, remaining, ax, most=2 if short else None)
 
 
 def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     """Put the name of a panel above it on the left; ``pad`` as of :func:`set_title`."""
     look: dict[str, Any] = {"loc": "left", "fontsize": "medium", "color": muted(ax), "pad": pad}
-    text = ax.set_title(plain_text("\n".join(lines)), **look)
-    _fit(ax, text, _FittedText(text, lines, ax))
+    _write(ax.set_title("", **look), lines, ax)
 
 
 def set_figure_title(figure: FigureBase, *lines: str) -> None:
     """Put lines above all panels of a figure on the left."""
     size = font_of("figure.titlesize", "medium").get_size()
     text = figure.suptitle("", x=0.012, ha="left", fontsize=size)
-    _fit(figure, text, _FittedText(text, [line for line in lines if line], figure))
+    _write(text, [line for line in lines if line], figure)
 
 
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
-    (text,) = in_units(ax.xaxis, text)
-    ax.set_xlabel(plain_text(text))
-    _fit(ax, ax.xaxis.label, _FittedText(ax.xaxis.label, [text], ax))
+    _write(ax.xaxis.label, in_units(ax.xaxis, text), ax)
 
 
 def label_y(ax: Axes, *lines: str) -> None:
     """Label the vertical axis, on more lines where it is short."""
-    lines = tuple(in_units(ax.yaxis, *lines))
-    ax.set_ylabel(plain_text("\n".join(lines)))
-    _fit(ax, ax.yaxis.label, _FittedText(ax.yaxis.label, lines, ax, "height"))
+    _write(ax.yaxis.label, in_units(ax.yaxis, *lines), ax, "height")
 
 
 def label_bar(bar: Colorbar, text: str) -> None:
     """Label a scale of colours."""
-    (text,) = in_units(bar.ax.yaxis, text)
-    bar.set_label(plain_text(text))
-    label = bar.ax.yaxis.label
-    _fit(bar.ax, label, _FittedText(label, [text], bar.ax, "height"))
+    label_y(bar.ax, text)
 
 
 def equal_scales(ax: Axes) -> None:

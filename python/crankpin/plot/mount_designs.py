@@ -24,7 +24,7 @@ from crankpin.plot.layout import (
     set_title,
 )
 from crankpin.plot.mounts import AT
-from crankpin.plot.painter import draw_curves, name_rows, x_axis, y_axis
+from crankpin.plot.painter import draw_changes, draw_curves, name_rows, x_axis, y_axis
 from crankpin.plot.style import SERIES, foreground, muted, series
 from crankpin.plot.words import joined, rounded
 
@@ -54,12 +54,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     at = AT if result.powertrain._varies else None
     pair = [powertrain.modes(at).frequency for powertrain in (result.powertrain, result.fitted)]
     rows = np.arange(6)
-    looks = series(ax, 2, {"marker": "o", "linestyle": "", "markersize": 6.0} | style)
-    link: dict[str, Any] = {"color": muted(ax, 0.4), "linewidth": 1.2, "zorder": 1}
-    ax.hlines(rows, pair[0], pair[1], **link)
-    for frequency, look, label in zip(pair, looks, ("before", "designed"), strict=True):
-        hollow = {"markerfacecolor": "none"} if label == "before" else {}
-        ax.plot(frequency, rows, gid=SERIES, label=label, **(look | hollow))
+    draw_changes(ax, rows, dict(zip(("before", "designed"), pair, strict=True)), style)
     largest = float(np.max(pair))
     if result.modes_between is not None:
         low, high = result.modes_between

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin.plot.layout import label_x, label_y, note_zero
-from crankpin.plot.style import SERIES, muted, series
+from crankpin.plot.style import SERIES, background, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import joined, plain_text
 
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike
+
+CHANGE = "crankpin change"
+"""Marks the lines from before to after by their gid."""
 
 
 def draw_curves(
@@ -39,6 +42,24 @@ def draw_curves(
             x, values, gid=SERIES, label=joined(label or "", name) or "_", **(look | own)
         )
     ]
+
+
+def draw_changes(
+    ax: Axes, rows: ArrayLike, columns: Mapping[str, ArrayLike], style: Mapping[str, Any]
+) -> None:
+    """Draw rows before and after something: rings, dots, and lines from the ones to the others.
+
+    What does not change is a dot in a ring.
+    """
+    before, after = columns.values()
+    ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
+    for name, size, ring in zip(columns, (9.0, 4.5), (True, False), strict=True):
+        (look,) = series(ax, 1, style)
+        marks: dict[str, Any] = {"marker": "o", "markersize": size} | look | {"linestyle": ""}
+        if ring:
+            marks |= {"markerfacecolor": background(ax), "markeredgewidth": 1.5}
+        options: dict[str, Any] = {"gid": SERIES, "label": name, "clip_on": False, "zorder": 3}
+        ax.plot(columns[name], rows, **(options | marks))
 
 
 def x_axis(
