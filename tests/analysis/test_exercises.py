@@ -169,3 +169,26 @@ def test_errors_name_what_there_is() -> None:
         cp.exercise("single").check(third=1.0)
     with pytest.raises(cp.InputError, match="answers are left out: give first=… or second=…"):
         cp.exercise("single").check()
+
+
+@sheets
+def test_locomotive(seed: int) -> None:
+    """The formulae of textbooks, of the figures that the sheet prints."""
+    sheet = cp.exercise("locomotive", seed)
+    read = re.search(
+        r"cylinders (\d+) mm apart.* have (\d+) kg, the stroke is (\d+) mm.* and (\d+) % .*wheels, "
+        r"(\d+) mm apart, of (\d+) mm .* at (\d+) km/h",
+        sheet.question,
+    )
+    assert read is not None
+    apart, mass, stroke, percent, wheels, diameter, kmh = map(float, read.groups())
+    omega = kmh / 3.6 / (diameter / 2000)
+    force, share, k = mass * stroke / 2000 * omega**2, percent / 100, apart / wheels / 2
+    assert sheet.answers == pytest.approx(
+        {
+            "hammer_blow": share * force * math.hypot(0.5 + k, 0.5 - k),
+            "tractive_variation": math.sqrt(2) * (1 - share) * force,
+            "swaying_couple": apart / 1000 * (1 - share) * force / math.sqrt(2),
+        },
+        rel=CLOSE,
+    )

@@ -143,6 +143,7 @@ def test_three_cylinders_do_not_pull_and_push() -> None:
 def test_forces_are_those_of_free_bodies(seed: int) -> None:
     locomotive, pistons, turning = few(seed)
     shares = locomotive.share
+    assert isinstance(shares, tuple)
     wheel_z = locomotive.wheel_z
     crank = [
         [Weight(share * 90.0, piston.bore_deg - piston.tdc_deg, piston.z) for piston in pistons]
@@ -205,6 +206,7 @@ def test_the_engine_has_what_the_locomotive_pushes(seed: int) -> None:
     blows = -np.asarray(forces.hammer_blow).reshape(len(locomotive.axle_x), 2, -1).sum(axis=1)
     np.testing.assert_allclose(blows.sum(axis=0), without_pistons.force[:, 1], atol=1e-9 * UNIT)
     # Each axle at its own place, they pitch the locomotive.
+    assert isinstance(locomotive.driving, tuple)
     levers = np.array(locomotive.axle_x) - locomotive.axle_x[locomotive.driving[0] - 1]
     np.testing.assert_allclose(levers @ blows, without_pistons.torque, atol=1e-9 * UNIT)
 
@@ -238,6 +240,19 @@ def test_axles_share_the_weights() -> None:
         found = float(getattr(three.forces(200), name).peak)
         assert found == pytest.approx(float(getattr(one.forces(200), name).peak))
     assert three.share_for(40e3, rpm=200) == pytest.approx(3 * one.share_for(40e3, rpm=200))
+
+
+def test_one_figure_of_all_stays_so() -> None:
+    one = two(share=0.6, rotating_mass=120, wheel_load=70e3, inclination_deg=5)
+    more = one.replace(axle_x=[0, 1.9], driving=2)
+    expected = two(
+        cylinder=[TEXTBOOK] * 2, share=[0.3, 0.3], rotating_mass=[120, 120], driving=[2, 2],
+        wheel_load=[70e3] * 4, inclination_deg=[5, 5], axle_x=[0, 1.9],
+    )  # fmt: skip
+    assert more.table == expected.table
+    assert more.engine == expected.engine
+    assert (more.share, more.rotating_mass, more.driving) == (0.6, 120.0, 2)
+    assert expected.share == (0.3, 0.3)
 
 
 def test_coupling_rods_opposite_to_inside_cranks_help_to_balance() -> None:
@@ -286,6 +301,8 @@ def test_tables() -> None:
     [
         ({"wheel_z": [0.8, 0.8]}, "wheel_z"),
         ({"wheel_z": [0.8]}, "wheel_z"),
+        ({"z": []}, "z"),
+        ({"weights": [[cp.Unbalance(1, 0.5)]]}, "weights"),
         ({"throws_deg": [0]}, "throws_deg"),
         ({"share": 1.2}, "share"),
         ({"share": [0.1, 0.2]}, "share"),

@@ -17,6 +17,7 @@ from crankpin.analysis.balance import balance
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.flywheel import flywheel
+from crankpin.analysis.locomotive import Locomotive
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
@@ -43,7 +44,8 @@ def exercise(topic: str, seed: int = 0) -> Exercise:
     ----------
     topic : str
         ``"single"``, ``"inline"``, ``"v-twin"``, ``"v-angle"``, ``"bob-weight"``,
-        ``"counterweight"``, ``"balance-shafts"``, ``"firing-order"`` or ``"flywheel"``.
+        ``"counterweight"``, ``"balance-shafts"``, ``"firing-order"``, ``"flywheel"`` or
+        ``"locomotive"``.
     seed : int, default 0
         Number of the sheet.
 
@@ -521,6 +523,57 @@ def _flywheel(random: Random) -> Sheet:
     return "A flywheel", question, engine, steps
 
 
+def _locomotive(random: Random) -> Sheet:
+    mass, stroke = random.randrange(240, 361, 10), random.randrange(560, 701, 20)
+    apart, wheels = random.randrange(600, 761, 20), random.randrange(1500, 1601, 10)
+    diameter, kmh = random.randrange(1500, 2001, 100), random.randrange(70, 111, 10)
+    percent = random.choice((50, 60, 65, 70, 75))
+    locomotive = Locomotive(
+        Cylinder(stroke / 2000, math.inf, mass),
+        z=[-apart / 2000, apart / 2000],
+        throws_deg=[0, 90],
+        wheel_z=[-wheels / 2000, wheels / 2000],
+        share=percent / 100,
+        wheel_diameter=diameter / 1000,
+    )
+    forces = locomotive.forces(speed_kmh=kmh)
+    omega = inputs.angular_speed(forces.rpm)
+    steps = (
+        Step("angular speed of the wheels", "ω = 2 v / D", omega, "rad/s"),
+        Step("inertia of one piston", "F = m r ω²", mass * stroke / 2000 * omega**2, "N"),
+        Step("cylinders over wheels, halved", "k = a / (2 b)", apart / wheels / 2, ""),
+        Step(
+            "hammer blow of a wheel",
+            "c F √((½ + k)² + (½ − k)²)",
+            float(forces.hammer_blow.peak[0]),
+            "N",
+            "hammer_blow",
+        ),
+        Step(
+            "variation of tractive effort",
+            "√2 (1 − c) F",
+            float(forces.tractive_variation.peak),
+            "N",
+            "tractive_variation",
+        ),
+        Step(
+            "swaying couple",
+            "a (1 − c) F / √2",
+            float(forces.swaying_couple.peak),
+            "N·m",
+            "swaying_couple",
+        ),
+    )
+    question = (
+        f"A locomotive has two cylinders {apart} mm apart, its cranks are at right angles. The "
+        f"reciprocating parts of each have {mass} kg, the stroke is {stroke} mm. All that turns "
+        f"and {percent} % of the reciprocating parts are balanced in the planes of the wheels, "
+        f"{wheels} mm apart, of {diameter} mm diameter. Rods are long. How large are hammer blow, "
+        f"variation of tractive effort and swaying couple at {kmh} km/h?"
+    )
+    return "A locomotive of two cylinders", question, locomotive.engine, steps
+
+
 TOPICS: dict[str, Callable[[Random], Sheet]] = {
     "single": _single,
     "inline": _inline,
@@ -531,5 +584,6 @@ TOPICS: dict[str, Callable[[Random], Sheet]] = {
     "balance-shafts": _balance_shafts,
     "firing-order": _firing_order,
     "flywheel": _flywheel,
+    "locomotive": _locomotive,
 }
 """Topics, and what makes a sheet of each."""

@@ -110,19 +110,19 @@ class Locomotive(Framed, Input):
     36700.0
     """
 
-    cylinder: tuple[Cylinder, ...]
+    cylinder: Cylinder | tuple[Cylinder, ...]
     z: tuple[float, ...]
     throws_deg: tuple[str, ...]
     wheel_z: tuple[float, float]
-    share: tuple[float, ...]
-    rotating_mass: tuple[float, ...]
-    inclination_deg: tuple[str, ...]
+    share: float | tuple[float, ...]
+    rotating_mass: float | tuple[float, ...]
+    inclination_deg: str | tuple[str, ...]
     wheel_diameter: float | None
     axle_x: tuple[float, ...]
-    driving: tuple[int, ...]
+    driving: int | tuple[int, ...]
     coupling: tuple[Unbalance, ...]
     weights: tuple[tuple[Unbalance, ...], ...] | None
-    wheel_load: tuple[float, ...] | None
+    wheel_load: float | tuple[float, ...] | None
     name: str
 
     def __init__(
@@ -148,6 +148,8 @@ class Locomotive(Framed, Input):
             for argument, values in (("z", z), ("wheel_z", wheel_z), ("axle_x", axle_x))
         )
         count = len(places)
+        if not count:
+            raise inputs.rejected("z", z, "give the place of one cylinder, or of several, m")
         if len(wheels) != 2 or wheels[0] == wheels[1]:
             raise inputs.rejected("wheel_z", wheel_z, "give the places of two wheels, m")
         if not axles:
@@ -156,30 +158,42 @@ class Locomotive(Framed, Input):
         driven = [inputs.whole("driving", axle, 1, len(axles)) for axle in drives]  # type: ignore[union-attr]
         cylinders = [cylinder] * count if isinstance(cylinder, Cylinder) else cylinder
         tilts = inclination_deg if inputs.is_listed(inclination_deg) else [inclination_deg] * count
-        listed: dict[str, tuple[Any, ...]] = {
+        throws = tuple(inputs.angles("throws_deg", throws_deg))
+        each: dict[str, tuple[Any, ...]] = {
             "cylinder": listed_items("cylinder", cylinders, Cylinder),
-            "throws_deg": tuple(inputs.angles("throws_deg", throws_deg)),
             "rotating_mass": tuple(inputs.per_item("rotating_mass", rotating_mass, count)),
             "inclination_deg": tuple(inputs.angles("inclination_deg", tilts)),
             "driving": tuple(driven),
         }
-        for argument, values in listed.items():
+        for argument, values in ({"throws_deg": throws} | each).items():
             if len(values) != count:
                 hint = f"give {count}, one for each place of z"
                 raise inputs.faulty(argument, f"has {len(values)} entries", hint)
-        shares = _shares(share, len(axles))
-        if weights is not None and any(shares):
+        each["share"] = _shares(share, len(axles))
+        if weights is not None and any(each["share"]):
             raise inputs.rejected("share", share, "leave it out where the weights are given")
-        loads = None if wheel_load is None else _of_wheels(wheel_load, 2 * len(axles))
+        each["wheel_load"] = _of_wheels(wheel_load, 2 * len(axles))
         diameter = wheel_diameter
         if diameter is not None:
             diameter = inputs.positive("wheel_diameter", diameter)
+        one: dict[str, Any] = {
+            "cylinder": cylinder,
+            "rotating_mass": rotating_mass,
+            "driving": driving,
+        }
+        one |= {"inclination_deg": inclination_deg, "wheel_load": wheel_load}
+        # One figure for all stays one: a copy may have another number of axles.
+        fields = {
+            name: values[0] if values and not inputs.is_listed(one.get(name)) else values or None
+            for name, values in each.items()
+        }
+        fields["share"] = each["share"] if np.ndim(share) else inputs.number("share", share)
         first, second = sorted(wheels)
         self.__dict__.update(
-            listed, z=places, wheel_z=(first, second), share=shares, wheel_diameter=diameter,
-            axle_x=axles, coupling=listed_items("coupling", coupling, Unbalance),
+            fields, z=places, throws_deg=throws, wheel_z=(first, second), axle_x=axles,
+            wheel_diameter=diameter, coupling=listed_items("coupling", coupling, Unbalance),
             weights=None if weights is None else _by_axle(weights, len(axles)),
-            wheel_load=loads, name=inputs.text("name", name),
+            name=inputs.text("name", name), _each=each,
         )  # fmt: skip
         for field, weight in (
             *(("coupling", weight) for weight in self.coupling),
@@ -189,9 +203,21 @@ class Locomotive(Framed, Input):
                 fault = f"has crank {weight.crank} and pin {weight.pin}"
                 hint = f"leave crank out, and give a pin of 1 to {count} or none"
                 raise inputs.faulty(field, fault, hint)
+            if field == "weights" and weight.z not in self.wheel_z:
+                raise inputs.faulty(field, f"has a place {weight.z:g}", "give one of wheel_z, m")
         engine = self.engine  # an error, or a warning, of the engine's figures
         checks.place(engine._core, "wheel_z", *self.wheel_z)
         checks.place(engine._core, "axle_x", *(x - self.axle_x[0] for x in axles), middle=0.0)
+
+    def _of_each(self, name: str) -> tuple[Any, ...]:
+        """Return a field of each cylinder, axle or wheel."""
+        each: dict[str, tuple[Any, ...]] = self.__dict__["_each"]
+        return each[name]
+
+    @property
+    def _loads(self) -> tuple[float, ...]:
+        """Static load of each wheel, N; empty where it is not known."""
+        return self._of_each("wheel_load")
 
     # --- the engine ------------------------------------------------------------------------------
 
@@ -207,7 +233,7 @@ class Locomotive(Framed, Input):
         The main crank is the axle that cylinder 1 drives; moments are about the middle plane
         between the wheels.
         """
-        main = self.driving[0] - 1
+        main = self._of_each("driving")[0] - 1
         order = [main, *(k for k in range(len(self.axle_x)) if k != main)]
         weights = [
             weight.replace(crank=order.index(axle))
@@ -215,16 +241,18 @@ class Locomotive(Framed, Input):
             for weight in (*self._coupled, *of_axle)
         ]
         return self._engine(
-            rotating_mass=self.rotating_mass,
+            rotating_mass=self._of_each("rotating_mass"),
             counterweights=weights,
             cranks=[(self.axle_x[k] - self.axle_x[main], 0.0, 1) for k in order[1:]],
-            crank=[order.index(axle - 1) for axle in self.driving] if order[1:] else None,
+            crank=[order.index(axle - 1) for axle in self._of_each("driving")]
+            if order[1:]
+            else None,
             name=self.name,
         )
 
     def _engine(self, **arguments: Any) -> Engine:  # noqa: ANN401 - of the builder
         return Engine.from_lists(
-            self.cylinder,
+            self._of_each("cylinder"),
             bank_deg=self._bores,
             pin_deg=self._pins,
             z=self.z,
@@ -236,7 +264,7 @@ class Locomotive(Framed, Input):
     @property
     def _bores(self) -> list[str]:
         """Directions of the bores, exact degrees."""
-        return [_exact(180 - Fraction(tilt)) for tilt in self.inclination_deg]
+        return [_exact(180 - Fraction(tilt)) for tilt in self._of_each("inclination_deg")]
 
     @property
     def _pins(self) -> list[str]:
@@ -264,7 +292,7 @@ class Locomotive(Framed, Input):
             return tuple(tuple(map(self._fixed, of_axle)) for of_axle in self.weights)
         return tuple(
             tuple(weight for weight in self._opposing(axle, (), share) if weight.amount)
-            for axle, share in enumerate(self.share)
+            for axle, share in enumerate(self._of_each("share"))
         )
 
     def _opposing(
@@ -283,7 +311,9 @@ class Locomotive(Framed, Input):
         """
         masses = [
             mass if driven == axle + 1 else 0.0
-            for mass, driven in zip(self.rotating_mass, self.driving, strict=True)
+            for mass, driven in zip(
+                self._of_each("rotating_mass"), self._of_each("driving"), strict=True
+            )
         ]
         turning = [*self._coupled, *weights]
         planes = dict(zip(SIDES, self.wheel_z, strict=True))
@@ -292,7 +322,7 @@ class Locomotive(Framed, Input):
             fit = counterweights(engine, planes=planes, factor=share)
         size = sum(weight.amount for weight in turning) + sum(
             (mass + share * cylinder.reciprocating_mass) * cylinder.crank_radius
-            for mass, cylinder in zip(masses, self.cylinder, strict=True)
+            for mass, cylinder in zip(masses, self._of_each("cylinder"), strict=True)
         )
         by_side = {
             side: weight for side, weight in fit.by_plane if weight.amount > NEGLIGIBLE * size
@@ -318,12 +348,12 @@ class Locomotive(Framed, Input):
 
         Infinite without a hammer blow. An AttributeError where the loads are not given.
         """
-        if self.wheel_load is None:
+        if not self._loads:
             hint = "give the static load of the wheels, wheel_load"
             raise inputs.faulty("lifting_rpm", "is undefined", hint, AbsentError)
         amounts = np.array([weight.amount for weight in self.unbalances])
         with np.errstate(divide="ignore"):
-            omega = np.sqrt(np.array(self.wheel_load) / amounts)
+            omega = np.sqrt(np.array(self._loads) / amounts)
         return read_only(np.where(amounts > 0.0, omega * 60.0 / math.tau, np.inf))
 
     @property
@@ -442,7 +472,7 @@ class Locomotive(Framed, Input):
             Column("angle", angles, "°"),
             Column("unbalance", tuple(weight.amount for weight in self.unbalances), "kg·m"),
         ]
-        if self.wheel_load is not None:
+        if self._loads:
             columns.append(Column("lifts at", self.lifting_rpm, "rpm"))
             if self.wheel_diameter is not None:
                 columns.append(Column("lifts at", self.lifting_rpm * self._kmh_per_rpm, "km/h"))
@@ -469,8 +499,10 @@ def _shares(share: ArrayLike, axles: int) -> tuple[float, ...]:
     return tuple(shares)
 
 
-def _of_wheels(load: ArrayLike, wheels: int) -> tuple[float, ...]:
-    """Return the static load of each wheel, N."""
+def _of_wheels(load: ArrayLike | None, wheels: int) -> tuple[float, ...]:
+    """Return the static load of each wheel, N; nothing where it is not given."""
+    if load is None:
+        return ()
     loads = inputs.per_item("wheel_load", load, wheels)
     if len(loads) != wheels:
         hint = f"give one number, or {wheels}, right and left of each axle"

@@ -126,7 +126,7 @@ class LocomotiveForces(Labelled):
     @property
     def table(self) -> Table:
         """Largest forces; hammer blows beside the static load of their wheels."""
-        loads = self.locomotive.wheel_load or (None,) * len(self.locomotive.wheels)
+        loads = self.locomotive._loads or (None,) * len(self.locomotive.wheels)
         rows: list[tuple[str, str, float, float | None]] = [
             (OF_WHEELS[name].words, OF_WHEELS[name].unit, float(self._quantity(name).peak), None)
             for name in ("tractive_variation", "swaying_couple")
@@ -137,7 +137,7 @@ class LocomotiveForces(Labelled):
                 self.locomotive.wheels, self.hammer_blow.peak.tolist(), loads, strict=True
             )
         ]
-        known = self.locomotive.wheel_load is not None
+        known = bool(self.locomotive._loads)
         heads: list[str | tuple[str, str]] = ["quantity", "unit", "largest"]
         heads += [("of the static load", "%")] if known else []
         speed = f"{self.rpm:.6g} rpm"

@@ -181,14 +181,14 @@ def _locomotive(
     columns = dict(zip(names, values, strict=True))
     draw_curves(ax, result.theta_deg, columns, style, label)
     zero_line(ax)
-    if by_wheel and locomotive.wheel_load is not None:
+    if by_wheel:
         look: dict[str, Any] = {
             "color": muted(ax, 0.8),
             "linewidth": 1.2,
             "linestyle": ":",
             "zorder": 1,
         }
-        for k, load in enumerate(dict.fromkeys(locomotive.wheel_load)):
+        for k, load in enumerate(dict.fromkeys(locomotive._loads)):
             text = "" if k else "− static load: the wheel lifts"
             ax.axhline(-load, label=text or "_", gid="crankpin load", **look)
     if not values.any():
