@@ -62,7 +62,7 @@ DECLARING: dict[Any, str] = {
 }
 """Function → its arguments that are fields of the form."""
 OF_LOADS: dict[Any, str] = {
-    cp.PeriodicLoad: "on force torque ratio z x y direction_deg phase_deg cylinder",
+    cp.PeriodicLoad: "on force torque ratio z x y direction_deg phase_deg cylinder"
 }
 """The same of fields of a periodic load."""
 
