@@ -61,6 +61,10 @@ DECLARING: dict[Any, str] = {
     cp.flywheel: "inertia",
 }
 """Function → its arguments that are fields of the form."""
+OF_LOADS: dict[Any, str] = {
+    cp.PeriodicLoad: "on force torque ratio z x y direction_deg phase_deg cylinder"
+}
+"""The same of fields of a periodic load."""
 
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
@@ -140,17 +144,18 @@ def tables() -> dict[str, Any]:
             "drawn": {setting: drawn(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
             "said": {setting: said(setting) for setting in SETTINGS[1:]} | {SETTINGS[0]: {}},
         },
-        "declared": declared(),
+        "declared": declared(DECLARING),
+        "of_loads": declared(OF_LOADS),
         "presets": {name: preset(name) for name in presets.presets()},
         "page": page.template(),
         "groups": {title: names for title in GROUPS if (names := group(title))},
     }
 
 
-def declared() -> dict[str, dict[str, Any]]:
+def declared(declaring: dict[Any, str]) -> dict[str, dict[str, Any]]:
     """Return what functions declare of the arguments that are fields: unit, meaning, choices."""
     result = dict[str, dict[str, Any]]()
-    for function, names in DECLARING.items():
+    for function, names in declaring.items():
         for name in names.split():
             of = parameters.parameter(function, name)
             text = of.meaning.replace("``", "").replace('"', "")

@@ -1,6 +1,6 @@
 // What can be typed of an engine: the arguments of the library's builders, by their names.
 
-import { DECLARED } from "./tables.mjs";
+import { DECLARED, OF_LOADS } from "./tables.mjs";
 
 /** Example cycles: their kinds and loads. */
 export const GASES = {
@@ -8,10 +8,11 @@ export const GASES = {
 };
 
 /** What the function that takes an argument declares of it, and how it is typed. */
-const declared = (name, field) => {
-  const { unit, said } = DECLARED[name];
+const declared = (name, field, declarations = DECLARED) => {
+  const { unit, said } = declarations[name];
   return { ...(unit && { unit }), said, ...field };
 };
+const ofLoads = (name, field) => declared(name, field, OF_LOADS);
 
 /** Of each field its label, the library's unit, and what it means; `choices` of those that are chosen. */
 export const FIELDS = {
@@ -50,24 +51,24 @@ const BY_ORDER = "order: size, size@phase° or complex, such as 2: 8, 4: 1.5@-30
 /** What can be typed of a periodic load, as of an engine; `seldom` of those that are behind a summary. */
 export const LOAD_FIELDS = {
   name: { label: "Name", text: true, said: "under which results count it" },
-  on: {
+  on: ofLoads("on", {
     label: "Acts on", choices: { shaft: "its shaft, from outside", block: "the block, from outside", both: "its shaft, against the block" },
     said: "a propeller or belt on its shaft; pumps and valve trains against the block, which turn it back and leave no net force",
-  },
-  force: { label: "Force by order", unit: "N", amplitudes: true, optional: true, said: BY_ORDER },
-  torque: { label: "Torque by order", unit: "N·m", amplitudes: true, optional: true, said: BY_ORDER },
+  }),
+  force: ofLoads("force", { label: "Force by order", amplitudes: true, optional: true, said: BY_ORDER }),
+  torque: ofLoads("torque", { label: "Torque by order", amplitudes: true, optional: true, said: BY_ORDER }),
   rpm: {
     label: "Reference speed", unit: "rpm", speeds: true, optional: true,
     said: "at which the load has these sizes: it scales with the square of the speed; 1000/2000 with sizes 8/9 is a table; empty: the same at any speed",
   },
-  ratio: { label: "Speed of its shaft", ratio: true, optional: true, said: "over the crank’s, in halves: 1/2 of a camshaft; empty: on the crank’s" },
-  z: { label: "Place along the crank", unit: "m", optional: true, said: "from the front to the flywheel" },
-  x: { label: "Axis, x", unit: "m", optional: true, seldom: true, said: "of a shaft of its own, to the right of the crank’s" },
-  y: { label: "Axis, y", unit: "m", optional: true, seldom: true, said: "above the crank’s" },
-  direction_deg: { label: "Direction of the force", unit: "°", optional: true, seldom: true, said: "from the right, counter-clockwise" },
+  ratio: ofLoads("ratio", { label: "Speed of its shaft", ratio: true, optional: true }),
+  z: ofLoads("z", { label: "Place along the crank", optional: true }),
+  x: ofLoads("x", { label: "Axis, x", optional: true, seldom: true }),
+  y: ofLoads("y", { label: "Axis, y", optional: true, seldom: true }),
+  direction_deg: ofLoads("direction_deg", { label: "Direction of the force", optional: true, seldom: true }),
   turning: { label: "The force", choices: { "": "keeps its direction", yes: "turns with its shaft" }, seldom: true },
-  phase_deg: { label: "Phase", unit: "°", optional: true, seldom: true, said: "crank angle at which its own is 0" },
-  cylinder: { label: "Turns with the bank of cylinder", whole: true, optional: true, seldom: true, said: "as the bank angle changes" },
+  phase_deg: ofLoads("phase_deg", { label: "Phase", optional: true, seldom: true }),
+  cylinder: ofLoads("cylinder", { label: "Turns with the bank of cylinder", whole: true, optional: true, seldom: true }),
 };
 
 /** What a load has until something is typed. */

@@ -65,6 +65,17 @@ def test_fields_are_the_arguments_of_builders(open_workbench: Open) -> None:
                 assert fields[name]["said"], name
 
 
+def test_fields_of_loads_are_arguments_of_periodic_loads(open_workbench: Open) -> None:
+    fields = open_workbench().evaluate("LOAD_FIELDS")
+    for name, shown in fields.items():
+        declared = parameter(cp.PeriodicLoad, name)
+        if name not in {"rpm", "turning"}:  # a choice, and a field that reads tables too
+            assert shown.get("unit", "") == declared.unit.replace("degrees", "°"), name
+            assert shown.get("choices", {}).keys() == {*declared.choices}, name
+    elsewhere = {"scaling", "crank"}  # follows from what is typed; of engine files
+    assert fields.keys() == {*inspect.signature(cp.PeriodicLoad).parameters} - elsewhere
+
+
 # --- tasks --------------------------------------------------------------------------------------
 
 
