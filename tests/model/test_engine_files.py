@@ -31,7 +31,8 @@ EVERYTHING = (
     .with_shafts([cp.Shaft(-1, [cp.Unbalance(0.01, z=0.1)], x=0.1, name="balancer")])
     .replace(mains=[-0.05, 0.05, 0.15], reference_z=0.02)
     .with_cycle([cp.Cycle.example(), None, cp.Cycle(range(0, 720, 90), [2e5] * 8), None],
-                crankcase=1e5)
+                crank_end=[None, cp.Cycle(range(0, 720, 90), [3e5] * 8), None, None],
+                rod_diameter=0.01, crankcase=1e5)
 )  # fmt: skip
 TWO_CRANKS = """
 schema = 1
