@@ -100,6 +100,21 @@ impl BearingLoadsModel {
         Ok(found.into_iter().map(figures).collect())
     }
 
+    /// The same at crank angles, degrees, by name: rows of cylinders.
+    fn rod_load_curves<'py>(
+        &self,
+        py: Python<'py>,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let thetas = theta_deg.as_slice()?;
+        let found = interrupt::run(py, |cancel| self.0.rod_load_curves(thetas, cancel))?;
+        let loads = PyDict::new(py);
+        for (name, rows) in ["rod_load", "gas_load", "inertia_load"].into_iter().zip(found) {
+            loads.set_item(name, frozen(py, rows)?)?;
+        }
+        Ok(loads)
+    }
+
     /// Index of the crank and place of each main bearing.
     fn mains(&self) -> Vec<(usize, f64)> {
         self.0.mains().iter().map(|main| (main.crank.position(), main.z)).collect()
