@@ -106,7 +106,8 @@ class RodLoads(Labelled):
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         model = _core.BearingLoadsModel(engine, rpm)
-        self.__dict__.update(rpm=rpm, theta_deg=theta, _model=model)
+        curves = model.rod_load_curves(theta)
+        self.__dict__.update(rpm=rpm, theta_deg=theta, _model=model, _curves=curves)
         super().__post_init__()
 
     @property
@@ -124,11 +125,6 @@ class RodLoads(Labelled):
         return {"cylinder": np.arange(1, len(self.engine) + 1)}
 
     @cached_property
-    def _curves(self) -> dict[str, NDArray[np.float64]]:
-        model: _core.BearingLoadsModel = self.__dict__["_model"]
-        return model.rod_load_curves(self.theta_deg)
-
-    @cached_property
     def _figures(self) -> list[_core._RodFigures]:
         model: _core.BearingLoadsModel = self.__dict__["_model"]
         return model.rod_loads(180 * self.engine.strokes)
@@ -138,10 +134,13 @@ class RodLoads(Labelled):
             return np.maximum(self._range_of("load")[:, 1, 0], 0.0)
         if quantity == "tension":
             return np.maximum(-self._range_of("load")[:, 0, 0], 0.0)
-        return self._curves[quantity]
+        curves: dict[str, NDArray[np.float64]] = self.__dict__["_curves"]
+        return curves[quantity]
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
-        if what == "peak" and quantity in self._curves:  # of the whole cycle, at any angle
+        if (
+            what == "peak" and quantity in self.__dict__["_curves"]
+        ):  # of the whole cycle, at any angle
             part = "load" if quantity == "rod_load" else quantity.removesuffix("_load")
             return np.asarray(np.abs(self._range_of(part)[:, :, 0]).max(axis=1))
         return super()._compute(quantity, what)
@@ -210,9 +209,9 @@ class RodLoads(Labelled):
             for one, mass in zip(self.engine.cylinders, outboard, strict=True)
         ]
         columns: dict[str, tuple[NDArray[np.float64], str]] = {
-            "compression": (self.compression, "N"),
+            "compression": (self.read("compression"), "N"),
             "most at": (self.compression_deg, "°"),
-            "tension": (self.tension, "N"),
+            "tension": (self.read("tension"), "N"),
             "least at": (self.tension_deg, "°"),
             "reversal": (self.reversal_deg, "°"),
             "gas from": (gas[:, 0, 0], "N"),

@@ -763,11 +763,8 @@ class Builders(EngineData):
             except InputError as error:
                 raise inputs.renamed(error, "cylinder", "upper") from None
         if inputs.flag("one_crankshaft", one_crankshaft):
-            if upper is None:
-                hint = "give the upper pistons and their side rods"
-                raise inputs.rejected("upper", None, hint)
-            if distance is not None or ratio != 1:
-                hint = "there is one crankshaft; leave distance and ratio out"
+            if upper is None or distance is not None or ratio != 1:
+                hint = "give upper, the pistons with side rods, and neither distance nor ratio"
                 raise inputs.rejected("one_crankshaft", True, hint)
             names: dict[str, Any] = {
                 "firing_order": firing_order, "strokes": strokes, "name": name, "source": source,
@@ -848,7 +845,10 @@ class Builders(EngineData):
                 if not mass >= 0.0:
                     raise inputs.rejected("crosshead_mass", mass, "give kg, zero or more")
             pairs = zip(cylinders, masses, strict=True)
-            cylinders = tuple(_with_crosshead(one, mass) for one, mass in pairs)
+            try:
+                cylinders = tuple(_with_crosshead(one, mass) for one, mass in pairs)
+            except InputError as error:
+                raise inputs.renamed(error, "reciprocating_mass", "crosshead_mass") from None
         engine = cls.from_lists(
             cylinders, pin_deg=throws_deg, bank_deg=[180 * (k % 2) for k in range(len(throws))],
             z=along.z, rotating_mass=along.rotating_mass, strokes=strokes,

@@ -616,6 +616,9 @@ class EngineData:
         diameters = inputs.per_item(
             "rod_diameter", 0.0 if rod_diameter is None else rod_diameter, count
         )
+        if len(diameters) != count:
+            fault = f"has {len(diameters)} entries"
+            raise inputs.faulty("rod_diameter", fault, f"give one, or {count}")
         return [
             None if one is None else (one._core, diameter)
             for one, diameter in zip(cycles, diameters, strict=True)
