@@ -26,6 +26,7 @@ from crankpin.analysis.prepared_trace import prepare_trace as prepare_trace
 from crankpin.analysis.ranking.rank import rank as rank
 from crankpin.analysis.rims import flywheel_disc as flywheel_disc
 from crankpin.analysis.rims import flywheel_rim as flywheel_rim
+from crankpin.analysis.rod_loads import rod_loads as rod_loads
 from crankpin.analysis.star import star_diagram as star_diagram
 from crankpin.analysis.sweeps.sweep import sweep as sweep
 from crankpin.analysis.tolerances.match_parts import match_parts as match_parts

@@ -43,6 +43,7 @@ from crankpin.analysis.ranking.ranking import Choice as Choice
 from crankpin.analysis.ranking.ranking import Ranking as Ranking
 from crankpin.analysis.rims import FlywheelDisc as FlywheelDisc
 from crankpin.analysis.rims import FlywheelRim as FlywheelRim
+from crankpin.analysis.rod_loads import RodLoads as RodLoads
 from crankpin.analysis.star import StarDiagram as StarDiagram
 from crankpin.analysis.sweeps.sweep import Sweep as Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform as SweepWaveform

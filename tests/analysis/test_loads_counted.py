@@ -58,6 +58,7 @@ RESULTS: dict[str, Any] = {
     "comparison": lambda e: cp.compare(e, e, 3000, orders=[1, 2]),
     "ranking": lambda e: cp.rank([e, e], rpm=3000, by="total.torque.peak", orders=[1, 2]),
     "bearings": lambda e: cp.bearing_loads(e, 3000, np.arange(0.0, 720.0, 10.0)),
+    "rods": lambda e: cp.rod_loads(e, 3000),
     "operating map": lambda e: cp.operating_map(e, [1000, 3000]),
     "options": lambda e: cp.balancer_options(e, 3000, by="total.torque.peak", most_shafts=1),
     "excitation": lambda e: cp.torsional_excitation(e, 3000, orders=[1, 2]),

@@ -177,6 +177,8 @@ BESIDE = {
     ("PeriodicLoad", "rpm"): "force|torque",
     ("from_samples", "rpm"): "force|torque",
     ("Receptance", "coordinates"): "table",
+    ("compressor", "discharge"): "clearance",
+    ("compressor", "suction"): "clearance",
     ("Traces", "theta_deg"): "pressure",
     ("flywheel", "rpm"): "inertia",
     ("flywheel", "drive"): "load",

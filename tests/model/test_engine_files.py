@@ -31,7 +31,8 @@ EVERYTHING = (
     .with_shafts([cp.Shaft(-1, [cp.Unbalance(0.01, z=0.1)], x=0.1, name="balancer")])
     .replace(mains=[-0.05, 0.05, 0.15], reference_z=0.02)
     .with_cycle([cp.Cycle.example(), None, cp.Cycle(range(0, 720, 90), [2e5] * 8), None],
-                crankcase=1e5)
+                crank_end=[None, cp.Cycle(range(0, 720, 90), [3e5] * 8), None, None],
+                rod_diameter=0.01, crankcase=1e5)
 )  # fmt: skip
 TWO_CRANKS = """
 schema = 1
@@ -249,8 +250,8 @@ def test_the_schema_takes_angles_that_the_reader_takes(angle: str) -> None:
     data = everything()
     del data["firing_order"], data["cycles"], data["crankcase"]
     for placement in data["placements"]:
-        placement.pop("cycle", None)
-        placement.pop("second_turn", None)
+        for name in ("cycle", "crank_end", "rod_diameter", "second_turn"):
+            placement.pop(name, None)
     data["placements"][0]["tdc_deg"] = angle
     assert mistakes(data) == []
     cp.Engine.from_json(json.dumps(data))

@@ -184,3 +184,95 @@ def test_what_has_no_meaning_is_rejected_by_name() -> None:
         opposed(distance=0.0)
     with pytest.raises(cp.InputError, match="at most 90° apart; these are 120°"):
         gas(lead_deg=120)
+
+
+# --- one crankshaft, and throws opposite each other ---
+
+
+def doxford(lead_deg: Any = 0, **upper: float) -> cp.Engine:  # noqa: ANN401
+    """Return one bore on one crankshaft, whose pistons have equal mass times radius."""
+    lower = cp.Cylinder(1.0, 1 / 0.12, 1.0, bore=0.5)
+    usual: dict[str, Any] = {"crank_radius": 1.0, "rod_length": 1 / 0.28, "reciprocating_mass": 1.0}
+    return cp.Engine.opposed_pistons(
+        lower, upper=cp.Cylinder(**usual | {"bore": 0.5} | upper), throws_deg=[0], spacing=0.1,
+        lead_deg=lead_deg, one_crankshaft=True,
+    )  # fmt: skip
+
+
+UNIT_RPM = 60.0 / (2.0 * np.pi)
+
+
+def largest(engine: cp.Engine, order: int, rpm: float = UNIT_RPM) -> float:
+    """Return the longest force of an order, N."""
+    return float(engine.balance(rpm, orders=[order])[order].force.peak)
+
+
+def test_pistons_on_one_crankshaft_cancel_in_order_1_and_add_in_order_2() -> None:
+    balance = doxford().balance(UNIT_RPM, orders=[1, 2])
+    assert balance[1].force.status == "zero, proved"
+    assert balance[2].force.peak == pytest.approx(0.40613435, abs=5e-9)  # P78
+    # Where mass times radius is equal, not the masses.
+    heavier = doxford(crank_radius=0.5, rod_length=0.5 / 0.28, reciprocating_mass=2.0)
+    assert largest(heavier, 1) < 1e-15
+    assert largest(doxford(crank_radius=0.5, rod_length=0.5 / 0.28), 1) == pytest.approx(0.5)
+
+
+def test_a_lead_breaks_order_1_and_the_chamber_fires_once() -> None:
+    engine = doxford("360/31")
+    assert largest(engine, 1) == pytest.approx(2 * np.sin(np.pi / 31))
+    assert engine.chambers == ((1, 2),)
+    assert engine._core.exact_angles[0] == ["0", "5220/31"]
+    assert cp.Engine.from_toml(engine.to_toml()) == engine
+    usual: dict[str, Any] = {"upper": CYLINDER, "throws_deg": [0], "spacing": 0.1}
+    for options, words in (
+        ({"distance": 1.0}, "neither distance"),
+        ({"upper": None}, "side rods"),
+        ({"one_crankshaft": False}, "^distance"),
+    ):
+        with pytest.raises(cp.InputError, match=words):
+            cp.Engine.opposed_pistons(CYLINDER, **{"one_crankshaft": True} | usual | options)
+
+
+def test_both_pistons_of_a_chamber_do_its_work_on_one_crank() -> None:
+    bare = doxford(20.0)
+    cycle = cp.Cycle.example("diesel", strokes=2)
+    fired = bare.with_cycle(cycle)
+    torque = fired.balance(100, orders=[1]).crank_torque.cycle_mean
+    # ∮ p dV by the trapezoidal rule, from where the chamber is smallest.
+    theta = np.linspace(0.0, 360.0, 7201)
+    lower, upper = bare.cylinders
+    crank = theta + fired.firing_deg[0]
+    volume = np.pi / 4 * 0.5**2 * (upper.position(crank - bare.tdc_deg[1]) - lower.position(crank))
+    assert volume.argmin() in (0, 7200)
+    # Chords of pressure and volume over 0.05° are good to a few parts in 10⁵.
+    work = np.trapezoid(cycle.pressure_at(theta), volume)
+    assert torque == pytest.approx(work / (2 * np.pi), rel=1e-4)
+
+
+def test_unlike_masses_on_opposed_throws_make_a_force() -> None:
+    cylinders = [cp.Cylinder(0.125, 0.625, mass) for mass in (200.0, 180.0)]
+    pair = cp.Engine.opposed_throws(cylinders, throws_deg=[0, 180], spacing=0.32)
+    first = pair.balance(600)[1]
+    assert first.force.peak == pytest.approx(9869.6044, abs=5e-5)  # P96
+    assert first.moment.peak == pytest.approx(30003.597, abs=5e-4)  # P97
+    assert first.force.peak_xy[1] == 0.0  # along the throws alone
+    crossheads = cp.Engine.opposed_throws(
+        [one.replace(reciprocating_mass=100.0) for one in cylinders],
+        throws_deg=[0, 180], spacing=0.32, crosshead_mass=[100.0, 80.0],
+    )  # fmt: skip
+    assert crossheads == pair
+    for mass in ([1.0], -1.0):
+        with pytest.raises(cp.InputError, match=r"^crosshead_mass"):
+            cp.Engine.opposed_throws(
+                cylinders, throws_deg=[0, 180], spacing=0.32, crosshead_mass=mass
+            )
+
+
+def test_masses_apart_by_a_rounding_leave_their_difference() -> None:
+    apart = 180.0 * (1.0 + 1e-12)
+    cylinders = [cp.Cylinder(0.125, 0.625, mass) for mass in (180.0, apart)]
+    pair = cp.Engine.opposed_throws(cylinders, throws_deg=[0, 180], spacing=0.32)
+    expected = (apart - 180.0) * 0.125 * (20 * np.pi) ** 2
+    # Two forces of 9·10⁴ N are good to 1e-11 each; within that the sum may be zero.
+    assert largest(pair, 1, 600.0) == pytest.approx(expected, abs=1e-7)
+    assert largest(pair, 1, 600.0) <= 2 * expected

@@ -18,6 +18,7 @@ every_object = in_turn("name", OBJECTS)
 RANDOM = np.random.default_rng(1)
 NOT_QUANTITIES = {
     "BearingLoads": {"main_z", "z", "shares"},  # places, and shares of places
+    "RodLoads": {"compression_deg", "tension_deg", "reversal_deg"},  # crank angles
     "TorsionalExcitation": {"angular_frequency"},  # what an order is at a speed
 }
 """Class → its arrays of numbers that are neither quantities nor coordinates."""

@@ -155,6 +155,7 @@ OBJECTS = Made(
         "Waveform": waveform,
         "Waveform, auto": lambda: waveform(orders="auto"),
         "BearingLoads": lambda: cp.bearing_loads(V6, 5000, THETA),
+        "RodLoads": lambda: cp.rod_loads(V6, 5000, THETA),
         "Sweep": sweep,
         "Sweep of one": lambda: cp.sweep(V6, rpm=5000),
         "SweepWaveform": lambda: sweep().waveform(THETA),
@@ -206,6 +207,9 @@ OBJECTS = Made(
         "Verdicts": lambda: V6.vanishing_orders().force,
         "Balance, fired": lambda: FIRED.balance(3000),
         "BearingLoads, fired": lambda: cp.bearing_loads(FIRED, 3000, THETA),
+        "RodLoads, double acting": lambda: cp.rod_loads(
+            I4.with_cycle(cp.Cycle.example(), double_acting=True, rod_diameter=0.02), 3000
+        ),
         "Waveform, fired": lambda: FIRED.waveform(3000, theta_deg=THETA),
         "OperatingMap": lambda: cp.operating_map(
             I4,

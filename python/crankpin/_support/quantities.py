@@ -113,6 +113,19 @@ LOADS = {
 }  # fmt: skip
 """Name of a load inside an engine → its entry."""
 
+ROD_LOADS = {
+    kind.name: kind
+    for kind in (
+        Kind("rod_load", "rod load", ("|F|",), ("along the bore",), "N", "kg·m", ("cylinder",)),
+        Kind("gas_load", "gas load", ("|F|",), ("along the bore",), "N", "", ("cylinder",)),
+        Kind("inertia_load", "inertia load", ("|F|",), ("along the bore",), "N", "kg·m",
+             ("cylinder",)),
+        *(Kind(name, f"largest {name}", ("F",), ("along the bore",), "N", dims=("cylinder",),
+               real=True, without=("theta_deg",)) for name in ("compression", "tension")),
+    )
+}  # fmt: skip
+"""Name of a load of a piston rod → its entry."""
+
 COMPONENTS_OF_LOADS = ("F_x", "F_y", "F_z", "M_x", "M_y", "M_z")
 """Components of a load, and of the motion that answers to it."""
 

@@ -12,10 +12,12 @@ from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.turning_moment import formula
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model import checks
+from crankpin.model.cycle import Cycle
 from crankpin.model.data import EngineData
 
 if TYPE_CHECKING:
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
-    from crankpin.model.cycle import Cycle
     from crankpin.model.engine import Engine
 
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike] | str"
@@ -410,14 +411,14 @@ def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
         hint = "the period is that of the engine's cycle; leave it out"
         raise inputs.rejected("period_deg", period_deg, hint)
     # Where pressure jumps or bends, at the firing of each cylinder.
-    fired = zip(engine.firing_deg, engine.cycles, strict=True) if engine.cycles else ()
+    with suppressed():
+        fired = [(start, Cycle._of(core)) for start, core in engine._core.face_cycles]
     cycle_deg = 180.0 * engine.strokes
     # Half orders of loads repeat after two turns.
     period = TWO_TURNS if engine.loads else cycle_deg
     bends = [
         start + turned + _bends(cycle)
         for start, cycle in fired
-        if cycle is not None
         for turned in np.arange(0.0, period, cycle_deg)
     ]
 

@@ -84,11 +84,7 @@ class TorsionalExcitation(Labelled):
         if quantity == "crank_torque.gas":
             return np.array(np.broadcast_to(gas, inertia.shape))
         if quantity == "mean_torque":
-            of_cylinders = zip(self.engine.cycles or (), self.engine.cylinders, strict=False)
-            means = [
-                cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders
-            ]
-            return np.array(means or [0.0] * len(self.engine))
+            return np.array(engine_core(self.engine).mean_gas_torques())
         if quantity == "reciprocating_inertia":
             return _core.mean_inertias(engine_core(self.engine))
         if quantity == "tangential_pressure":

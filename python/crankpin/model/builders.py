@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -684,10 +685,11 @@ class Builders(EngineData):
         *,
         throws_deg: Angles,
         spacing: ArrayLike,
-        distance: float,
+        distance: float | None = None,
         lead_deg: Angle = 0.0,
         upper: Cylinders | None = None,
         ratio: int = 1,
+        one_crankshaft: bool = False,
         rotating_mass: ArrayLike | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
@@ -698,20 +700,26 @@ class Builders(EngineData):
         """Return an upright engine with two pistons in each bore, on a crank below and one above.
 
         Lower cylinders are numbered first, then upper ones. The two pistons of a bore share a
-        chamber, which fires once, under the lower number (:attr:`chambers`).
+        chamber, which fires once, under the lower number (:attr:`chambers`). On one crankshaft, as
+        in Doxford's engines, side rods drive the upper pistons from throws opposite the lower ones:
+        order 1 cancels if mass times crank radius is equal, and order 2 adds.
 
         Parameters
         ----------
         spacing : float or array_like
             Distance between neighbouring bores, m, or of each from the one before it.
-        distance : float
-            Distance of the upper crank above the lower one, m.
+        distance : float, optional
+            Distance of the upper crank above the lower one, m; of two cranks it must be given.
         lead_deg : number or str, default 0.0
-            Angle by which the upper crank is ahead of the lower one, degrees.
+            Angle by which the upper crank is ahead of the lower one, degrees; on one crankshaft the
+            upper throws are half a turn and this angle ahead.
         upper : Cylinder, sequence of Cylinder or mapping of str to Cylinder, optional
-            Moving parts of the upper cylinders; by default those of the lower ones.
+            Moving parts of the upper cylinders; by default those of the lower ones. On one
+            crankshaft they must be given: ``rod_length`` is that of the side rods.
         ratio : {1, -1}, default 1
             Speed of the second crank over that of the main one: 1 turns with it, -1 against it.
+        one_crankshaft : bool, default False
+            Whether side rods drive the upper pistons from the lower crank.
         firing_order : str or sequence of int, optional
             …, of chambers.
         strokes : {2, 4}, default 2
@@ -736,6 +744,13 @@ class Builders(EngineData):
         ... )
         >>> twelve.vanishing_orders().force.remaining
         (6, 12)
+        >>> upper = cp.Cylinder(0.05, 0.35, 1.2)
+        >>> one = cp.Engine.opposed_pistons(
+        ...     cylinder, upper=upper, throws_deg=[0], spacing=0.15, one_crankshaft=True
+        ... )
+        >>> balance = one.balance(rpm=1000, orders=[1, 2])
+        >>> one.chambers, balance[1].force.status, f"{balance[2].force.peak:.1f} N"
+        (((1, 2),), 'zero, proved', '263.6 N')
         """
         layout: dict[str, Any] = {
             "throws_deg": throws_deg, "spacing": spacing, "rotating_mass": rotating_mass,
@@ -747,6 +762,17 @@ class Builders(EngineData):
                 above = cls.inline(upper, **layout)
             except InputError as error:
                 raise inputs.renamed(error, "cylinder", "upper") from None
+        if inputs.flag("one_crankshaft", one_crankshaft):
+            if upper is None or distance is not None or ratio != 1:
+                hint = "give upper, the pistons with side rods, and neither distance nor ratio"
+                raise inputs.rejected("one_crankshaft", True, hint)
+            names: dict[str, Any] = {
+                "firing_order": firing_order, "strokes": strokes, "name": name, "source": source,
+            }  # fmt: skip
+            return _by_side_rods(cls, lower, above, lead_deg, **names)
+        if distance is None:
+            hint = "give the distance of the cranks, m, or one_crankshaft=True"
+            raise inputs.rejected("distance", None, hint)
         lead = inputs.angle("lead_deg", lead_deg)
         later = lead[1:] if lead.startswith("-") else f"-{lead}"
         checks.angles(lead_deg=lead_deg)
@@ -754,6 +780,82 @@ class Builders(EngineData):
             cls, lower, distance, ratio, above=above, is_aside=False, phase_deg=later, tilt_deg=180,
             firing_order=firing_order, name=name, source=source,
         )  # fmt: skip
+
+    @classmethod
+    @documented(inline)
+    def opposed_throws(
+        cls,
+        cylinder: Cylinders,
+        *,
+        throws_deg: Angles,
+        spacing: ArrayLike,
+        crosshead_mass: ArrayLike | None = None,
+        rotating_mass: ArrayLike | None = None,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 2,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return a horizontal machine whose throws drive cylinders to the right and left in turn.
+
+        As balanced-opposed compressors: a cylinder for each throw, the first to the right. Two
+        neighbours with throws half a turn apart move in mirror image; what is left of their forces
+        is that of the difference of their masses, and a couple.
+
+        Parameters
+        ----------
+        throws_deg : sequence of number or str
+            Angle of the throw of each cylinder in the direction of rotation, degrees.
+        spacing : float or array_like
+            Distance between neighbouring throws, m, or of each from the one before it.
+        crosshead_mass : array_like, optional
+            Mass of crosshead, pin and nut, kg, of all throws or each, on top of the reciprocating
+            mass of the cylinder.
+        strokes : {2, 4}, default 2
+            Strokes of a cycle.
+
+        Returns
+        -------
+        Engine
+            The engine.
+
+        Examples
+        --------
+        The force and the couple of 200 kg against 180 kg at 600 rpm:
+
+        >>> import crankpin as cp
+        >>> cylinders = [cp.Cylinder(0.125, 0.625, mass) for mass in (200, 180)]
+        >>> pair = cp.Engine.opposed_throws(cylinders, throws_deg=[0, 180], spacing=0.32)
+        >>> first = pair.balance(rpm=600)[1]
+        >>> f"{first.force.peak:.4f} N, {first.moment.peak:.3f} N·m"
+        '9869.6044 N, 30003.597 N·m'
+        """
+        throws = inputs.angles("throws_deg", throws_deg)
+        along = cls.inline(cylinder, throws_deg=throws_deg, spacing=spacing,
+                           rotating_mass=rotating_mass, strokes=strokes)  # fmt: skip
+        cylinders = along.cylinders
+        if crosshead_mass is not None:
+            masses = inputs.per_item("crosshead_mass", crosshead_mass, len(throws))
+            if len(masses) != len(throws):
+                raise inputs.faulty(
+                    "crosshead_mass", f"has {len(masses)} entries", f"give one, or {len(throws)}"
+                )
+            for mass in masses:
+                if not mass >= 0.0:
+                    raise inputs.rejected("crosshead_mass", mass, "give kg, zero or more")
+            pairs = zip(cylinders, masses, strict=True)
+            try:
+                cylinders = tuple(_with_crosshead(one, mass) for one, mass in pairs)
+            except InputError as error:
+                raise inputs.renamed(error, "reciprocating_mass", "crosshead_mass") from None
+        engine = cls.from_lists(
+            cylinders, pin_deg=throws_deg, bank_deg=[180 * (k % 2) for k in range(len(throws))],
+            z=along.z, rotating_mass=along.rotating_mass, strokes=strokes,
+        )  # fmt: skip
+        first = inputs.angle("first_tdc_deg", first_tdc_deg)
+        checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
+        return cls(engine._core.with_first_tdc(first), name, source, firing_order, strokes)
 
     @classmethod
     @documented(opposed_pistons)
@@ -932,6 +1034,36 @@ def _doubled(
         tilt_deg=[tilt_deg],
         hold="firing",
         **names,
+    )
+
+
+def _by_side_rods(
+    kind: type[OfCranks],
+    lower: OfCranks,
+    above: OfCranks,
+    lead_deg: Angle,
+    **names: Any,  # noqa: ANN401
+) -> OfCranks:
+    """Return an engine whose upper pistons side rods drive from throws opposite the lower ones."""
+    phase = 180 - Fraction(inputs.angle("lead_deg", lead_deg))
+    checks.angles(lead_deg=lead_deg)
+    # Angles stay exact: those of a second crank that is later by that phase.
+    pair = kind.on_cranks([lower, above], cranks=[(0.0, 1.0, 1)], phase_deg=[str(phase)])
+    tdc_deg, bank_deg = pair._core.exact_angles
+    uppers = [one.replace(side_rods=True) for one in above.cylinders]
+    return kind.from_lists(
+        [*lower.cylinders, *uppers], tdc_deg=tdc_deg, bank_deg=bank_deg, z=pair.z,
+        rotating_mass=pair.rotating_mass, **names,
+    )  # fmt: skip
+
+
+def _with_crosshead(cylinder: Cylinder, mass: float) -> Cylinder:
+    """Return a cylinder with a crosshead, outboard of whose pin it counts as the piston does."""
+    if cylinder.rod is not None and cylinder.piston_mass is not None:
+        return cylinder.replace(piston_mass=cylinder.piston_mass + mass)
+    piston = None if cylinder.piston_mass is None else cylinder.piston_mass + mass
+    return dataclasses.replace(
+        cylinder, reciprocating_mass=cylinder.reciprocating_mass + mass, piston_mass=piston
     )
 
 

@@ -19,6 +19,8 @@ EXAMPLES: Final = ("petrol", "diesel")
 """Names of the cycles of :meth:`Cycle.example`."""
 
 
+ENDS: Final = ("head", "crank")
+"""Ends of a cylinder: above its piston, and below it, towards the crank."""
 OPTIONAL = ("heat", "excess_air", "wall_temperature", "rpm")
 """Figures without which a cycle is computed otherwise."""
 
@@ -182,6 +184,80 @@ class ComputedCycles:
         return cls._computed(
             _core.Cycle.ideal, kind, cylinder, compression_ratio, strokes, name, figures
         )
+
+    @classmethod
+    def compressor(
+        cls,
+        cylinder: Cylinder,
+        *,
+        suction: float = ATMOSPHERE,
+        discharge: float | None,
+        clearance: float = 0.1,
+        n: float = 1.3,
+        expansion_n: float | None = None,
+        end: Literal["head", "crank"] = "head",
+        name: str = "",
+    ) -> Self:
+        """Return the cycle of a compressor with ideal valves, one in each turn.
+
+        What the clearance keeps expands to the suction pressure, gas enters, is compressed to the
+        discharge pressure and leaves; expansion and compression are polytropic, p·Vⁿ constant. The
+        valves open exactly where the pressures are equal. An engine with it has ``strokes=2``.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            The cycle is that of its motion, of which that at the crank end differs.
+        suction : float, default 101325.0
+            Absolute pressure at which gas enters, Pa.
+        discharge : float or None
+            Absolute pressure at which gas leaves, Pa; None for an end that is unloaded, at suction
+            pressure throughout.
+        clearance : float, default 0.1
+            Least volume at this end over the volume that the piston sweeps there; 0 for none.
+        n : float, default 1.3
+            Polytropic exponent of the compression, 1 to 2.
+        expansion_n : float, optional
+            That of the expansion; by default ``n``.
+        end : {"head", "crank"}, default "head"
+            End of the cylinder; angles are counted from where its volume is smallest.
+        name : str, optional
+            Name; by default one with the pressures.
+
+        Returns
+        -------
+        Cycle
+            The cycle.
+
+        Raises
+        ------
+        InputError
+            If a figure is out of range, or the clearance so large that the valves never open.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.1, 0.5, 60, bore=0.3)
+        >>> cycle = cp.Cycle.compressor(cylinder, suction=1e5, discharge=4e5)
+        >>> f"{cycle.imep(cylinder) / 1e5:.4f} bar"
+        '-1.3218 bar'
+        """
+        if not isinstance(cylinder, Cylinder):
+            raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
+        at = inputs.one_of("end", end, ENDS)
+        figures = {
+            "suction": inputs.number("suction", suction),
+            "discharge": inputs.optional_number("discharge", discharge),
+            "clearance": inputs.number("clearance", clearance),
+            "n": inputs.number("n", n),
+            "expansion_n": inputs.number("expansion_n", n if expansion_n is None else expansion_n),
+        }
+        kind = "Unloaded end" if discharge is None else "Compressor"
+        title = inputs.text("name", name) or (kind if at == "head" else f"{kind}, crank end")
+        core = _core.Cycle.compressor(cylinder._parts, at, title, figures)
+        facts = {"stroke": cylinder.stroke} | figures
+        text = ", ".join(f"{key} {value:.6g}" for key, value in facts.items() if value is not None)
+        return cls._of(core, f"Computed, not measured: compressor, {at} end, in SI units {text}")
 
     @classmethod
     @documented()

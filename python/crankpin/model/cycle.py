@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files, odd_cycles
-from crankpin.model.computed_cycles import ComputedCycles, area
+from crankpin.model.computed_cycles import ENDS, ComputedCycles, area
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -234,7 +234,7 @@ class Cycle(Tabled, Input, ComputedCycles):
         """
         return self.mean_torque(cylinder) * math.radians(self.period_deg)
 
-    def imep(self, cylinder: Cylinder) -> float:
+    def imep(self, cylinder: Cylinder, *, end: Literal["head", "crank"] = "head") -> float:
         """Return the indicated mean effective pressure, work over displacement, Pa.
 
         Parameters
@@ -242,6 +242,8 @@ class Cycle(Tabled, Input, ComputedCycles):
         cylinder : Cylinder
             Cylinder with a bore; its displacement follows from the travel of the piston, which a
             pin offset lengthens.
+        end : {"head", "crank"}, default "head"
+            End of the cylinder at which the pressure is.
 
         Returns
         -------
@@ -254,7 +256,8 @@ class Cycle(Tabled, Input, ComputedCycles):
             If the cylinder has no bore.
         """
         area(cylinder)  # an error without a bore, on which it does not depend
-        mean_pressure = self._core.imep(cylinder._parts)
+        chosen = inputs.one_of("end", end, ENDS)
+        mean_pressure = self._core.imep(cylinder._parts, chosen)
         checks.work(self._core, mean_pressure)
         return mean_pressure
 

@@ -25,7 +25,9 @@ LARGEST_LENGTH = 1e30
 """Largest length that the core takes, m."""
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
-_Details: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None, bool]
+_Details: TypeAlias = tuple[
+    float | None, float | None, tuple[float, float, float] | None, bool, bool
+]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -64,6 +66,9 @@ class Cylinder:
     dummy : bool, default False
         True for a dummy piston, a mass that balances others: it has no gas pressure, and no place
         in firing orders.
+    side_rods : bool, default False
+        True for a piston that side rods drive from beyond its chamber, as the upper one of two in a
+        bore on one crankshaft: pressure in its cylinder pulls it away from the crank.
 
     Raises
     ------
@@ -94,6 +99,7 @@ class Cylinder:
     piston_mass: float | None = None
     rod: Rod | None = None
     dummy: bool = False
+    side_rods: bool = False
 
     __array_ufunc__: ClassVar[None] = None
     """None, so that NumPy leaves comparison and arithmetic with arrays to the cylinder."""
@@ -199,7 +205,8 @@ class Cylinder:
 
     def __post_init__(self) -> None:
         inputs.flag("dummy", self.dummy)
-        for field in dataclasses.fields(self)[:-2]:
+        inputs.flag("side_rods", self.side_rods)
+        for field in dataclasses.fields(self)[:-3]:
             value = getattr(self, field.name)
             if value is not None or field.default is not None:
                 object.__setattr__(self, field.name, inputs.number(field.name, value))
@@ -233,20 +240,20 @@ class Cylinder:
     @classmethod
     def _of(cls, parts: _Parts, details: _Details) -> Cylinder:
         """Return the cylinder of what the core has, without warnings: it was made before."""
-        bore, piston_mass, figures, dummy = details
+        bore, piston_mass, figures, *flags = details
         rod = None
         if figures is not None:
             mass, inertia, to_crankpin = figures
             rod = Rod(mass, inertia, parts[1], to_crankpin)
         with suppressed():
-            return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod, dummy=dummy)
+            return cls(*parts, bore, piston_mass, rod, *flags)
 
     @property
     def _details(self) -> _Details:
         """Data that the core stores without computing with them."""
         rod = self.rod
         figures = None if rod is None else (rod.mass, rod.inertia, rod.to_crankpin)
-        return self.bore, self.piston_mass, figures, self.dummy
+        return self.bore, self.piston_mass, figures, self.dummy, self.side_rods
 
     @property
     def _parts(self) -> _Parts:
@@ -302,8 +309,11 @@ class Cylinder:
             if whole["piston_mass"] is None:
                 hint = "give piston_mass too: it is not known what the rod's part was"
                 raise inputs.rejected("rod", whole["rod"], hint)
-            cylinder = Cylinder.from_rod(**{k: v for k, v in whole.items() if k != "dummy"})
-            return dataclasses.replace(cylinder, dummy=whole.get("dummy", self.dummy))
+            flags = {name: getattr(self, name) for name in ("dummy", "side_rods")}
+            cylinder = Cylinder.from_rod(**{k: v for k, v in whole.items() if k not in flags})
+            return dataclasses.replace(
+                cylinder, **{name: whole.get(name, flag) for name, flag in flags.items()}
+            )
         try:
             return dataclasses.replace(self, **changes)
         except TypeError as error:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 Hold: TypeAlias = Literal["pins", "firing"]
 _CoreEngine: TypeAlias = _core.Engine
+_CoreCycle: TypeAlias = _core.Cycle
 Cranks: TypeAlias = tuple[Sequence[tuple[float, float, "Order"]], Sequence[int]]
 """Axis and speed ratio of each crankshaft, and the index of each cylinder's own."""
 
@@ -220,6 +221,21 @@ class EngineData:
                 with suppressed():  # Warned of where it was given.
                     by_core[core] = Cycle._of(core)
         return tuple(None if core is None else by_core[core] for core in cores)
+
+    @property
+    def crank_ends(self) -> tuple[Cycle | None, ...] | None:
+        """Pressure at the crank end of each cylinder, below its piston; None without any."""
+        ends = self._core.crank_ends
+        if ends is None:
+            return None
+        with suppressed():
+            return tuple(None if end is None else Cycle._of(end[0]) for end in ends)
+
+    @property
+    def rod_diameter(self) -> NDArray[np.float64]:
+        """Diameters of piston rods through crank ends, m: (n_cylinders,); zero without one."""
+        ends = self._core.crank_ends or [None] * len(self)
+        return read_only(np.array([0.0 if end is None else end[1] for end in ends]))
 
     @property
     def crankcase(self) -> float | None:
@@ -498,13 +514,24 @@ class EngineData:
         return type(self)(periodic.with_loads(self._core, loads))
 
     def with_cycle(
-        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float | None = None
+        self,
+        cycle: Cycle | Sequence[Cycle | None] | None,
+        *,
+        crankcase: float | None = None,
+        double_acting: bool | Sequence[bool] = False,
+        crank_end: Cycle | Sequence[Cycle | None] | None = None,
+        rod_diameter: ArrayLike | None = None,
     ) -> Self:
         """Return the same engine with gas pressure in its cylinders, by its firing order.
 
         Balances, waveforms and sweeps count it: ``torque`` and ``crank_torque`` have the parts
         ``gas`` and ``inertia``, half orders and a ``mean``. Gas pressure makes no force and no
         rocking moment, since its forces on head, wall and bearings cancel.
+
+        Below a piston acts the pressure of the crankcase, unless its crank end has a cycle too. The
+        force on a piston is then ``p_head·A - p_crank·(A - A_rod) - p_crankcase·A_rod``, of
+        absolute pressures. The cycle of a crank end counts angles from where the piston is lowest;
+        in a four-stroke it fires half a turn after the head end.
 
         Parameters
         ----------
@@ -513,8 +540,16 @@ class EngineData:
             cylinder without gas load, as with its valves open. None for an engine without gas
             pressure.
         crankcase : float, optional
-            Absolute pressure below the pistons, Pa; by default what the engine has, or that of the
-            atmosphere.
+            Absolute pressure below the pistons, Pa, at crank ends on the cross-section of the
+            piston rod; by default what the engine has, or that of the atmosphere.
+        double_acting : bool or sequence of bool, default False
+            Whether the cycle acts at the crank end too, in all cylinders or each.
+        crank_end : Cycle or sequence of Cycle or None, optional
+            In place of ``double_acting``: pressure at the crank ends, as that of a compressor with
+            ``end="crank"`` or below the pistons of a two-stroke that pump its air.
+        rod_diameter : array_like, optional
+            Diameter of the piston rod through the crank end, m, of all cylinders or each; by
+            default 0.
 
         Returns
         -------
@@ -524,7 +559,7 @@ class EngineData:
         Raises
         ------
         InputError
-            If the engine has no firing order (the message has those that the crank allows), a
+            If a four-stroke has no firing order (the message has those that the crank allows), a
             cylinder no bore, or a cycle other strokes than the engine, or ``crankcase`` is given
             without a cycle.
 
@@ -545,7 +580,62 @@ class EngineData:
         >>> torque[0.5].status  # fires evenly
         'zero, proved'
         """
-        return self._fired_by(cycle, crankcase, self)
+        ends = self._crank_ends(cycle, double_acting, crank_end, rod_diameter)
+        return self._fired_by(cycle, crankcase, self, ends)
+
+    def _crank_ends(
+        self,
+        cycle: object,
+        double_acting: object,
+        crank_end: object,
+        rod_diameter: ArrayLike | None,
+    ) -> list[tuple[_CoreCycle, float] | None]:
+        """Return the cycle at the crank end of each cylinder and its rod's diameter, m."""
+        count = len(self)
+        hint = "give True or False, or one for each cylinder"
+        several = not isinstance(double_acting, bool)
+        flags = inputs.items("double_acting", double_acting, hint) if several else [double_acting]
+        acts = [inputs.flag("double_acting", flag) for flag in flags]
+        if crank_end is not None and any(acts):
+            hint = "it acts at crank ends where crank_end is not given; leave one out"
+            raise inputs.rejected("double_acting", double_acting, hint)
+        of = cycle if crank_end is None else crank_end
+        name = "double_acting" if crank_end is None else "crank_end"
+        if crank_end is None and not any(acts):
+            inputs.only_with("crank_end or double_acting", rod_diameter=rod_diameter)
+            return []
+        cycles = self._cycle_of_each("crank_end" if crank_end is not None else "cycle", of)
+        if len(cycles) != count or (several and len(acts) != count):
+            raise inputs.faulty(name, "has another number of entries", f"give one, or {count}")
+        if crank_end is None:
+            flags_of = acts if several else acts * count
+            cycles = [one if flag else None for one, flag in zip(cycles, flags_of, strict=True)]
+        if all(one is None for one in cycles):
+            inputs.only_with("crank_end or double_acting", rod_diameter=rod_diameter)
+            return []
+        diameters = inputs.per_item(
+            "rod_diameter", 0.0 if rod_diameter is None else rod_diameter, count
+        )
+        if len(diameters) != count:
+            fault = f"has {len(diameters)} entries"
+            raise inputs.faulty("rod_diameter", fault, f"give one, or {count}")
+        return [
+            None if one is None else (one._core, diameter)
+            for one, diameter in zip(cycles, diameters, strict=True)
+        ]
+
+    def _cycle_of_each(self, name: str, cycle: object) -> list[Any]:
+        """Return a cycle for each cylinder but dummy pistons, or those of a list."""
+        if cycle is None:
+            return [None] * len(self)
+        hint = "give a crankpin.Cycle, or one or None for each cylinder"
+        if isinstance(cycle, Cycle):
+            return [None if one.dummy else cycle for one in self.cylinders]
+        cycles = inputs.items(name, cycle, hint)
+        for k, one in enumerate(cycles):
+            if not (one is None or isinstance(one, Cycle)):
+                raise inputs.rejected(f"{name}[{k}]", one, hint)
+        return cycles
 
     @documented(with_loads, with_cycle)
     def replace(
@@ -667,30 +757,30 @@ class EngineData:
             checks.absolute("crankcase", below)
             fired = fired.firing_as(changed.firing_order, count)
             return type(self)(fired.with_turns(changed._core.chosen_turns))
-        return changed._fired_by(cycles, crankcase, self)
+        ends = (self._core.crank_ends or []) if _is_kept(cycle) else []
+        kept = [None if k in _dummies(core) else end for k, end in enumerate(ends, start=1)]
+        return changed._fired_by(cycles, crankcase, self, kept)
 
-    def _fired_by(self, cycle: object, crankcase: float | None, other: EngineData) -> Self:
+    def _fired_by(
+        self,
+        cycle: object,
+        crankcase: float | None,
+        other: EngineData,
+        ends: Sequence[tuple[_CoreCycle, float] | None] = (),
+    ) -> Self:
         """Return the same engine with cycles, its crankcase by default that of another."""
-        if cycle is None:
-            inputs.only_with("cycle", crankcase=crankcase)
-            return type(self)(self._core.without_cycles())
-        hint = "give a crankpin.Cycle, or one or None for each cylinder"
-        same = isinstance(cycle, Cycle)
-        cycles: list[Any] = (
-            [None if one.dummy else cycle for one in self.cylinders]
-            if same
-            else inputs.items("cycle", cycle, hint)
-        )
-        for k, one in enumerate(cycles):
-            if not (one is None or isinstance(one, Cycle)):
-                raise inputs.rejected(f"cycle[{k}]", one, hint)
+        at_ends = [None if end is None else end[0] for end in ends]
+        cycles = self._cycle_of_each("cycle", cycle)
         cores = [None if one is None else one._core for one in cycles]
-        if all(core is None for core in cores):
+        if all(core is None for core in [*cores, *at_ends]):
             inputs.only_with("cycle", crankcase=crankcase)
+            if cycle is None:
+                return type(self)(self._core.without_cycles())
         below = other._below_pistons(crankcase)
-        distinct = [core for core in dict.fromkeys(cores) if core is not None]
+        distinct = [core for core in dict.fromkeys([*cores, *at_ends]) if core is not None]
         cycle_of = [None if core is None else distinct.index(core) for core in cores]
-        fired = self._core.with_cycles(distinct, cycle_of, below)
+        crank_ends = [None if end is None else (distinct.index(end[0]), end[1]) for end in ends]
+        fired = self._core.with_cycles(distinct, cycle_of, below, crank_ends)
         checks.gas(fired)
         return type(self)(fired)
 
@@ -831,7 +921,7 @@ class EngineData:
         with suppressed():
             read.cylinders  # noqa: B018 - rods that contradict their cylinders raise
         checks.engine(core)
-        for cycle in filter(None, dict.fromkeys(core.cycles or ())):
+        for cycle in dict.fromkeys(cycle for _, cycle in core.face_cycles):
             checks.cycle(cycle)
         checks.gas(core)
         for name in ("tdc_deg", "bank_deg"):
@@ -966,7 +1056,7 @@ def _silent(core: _CoreEngine) -> set[int]:
 
 def _dummies(core: _CoreEngine) -> set[int]:
     """Return the numbers of dummy pistons."""
-    return {number for number, (*_, dummy) in enumerate(core.details, start=1) if dummy}
+    return {number for number, (*_, dummy, _) in enumerate(core.details, start=1) if dummy}
 
 
 def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:

@@ -353,7 +353,8 @@ impl<'a> Case<'a> {
         let name = String::new();
         let cycle = Cycle::new(Given { name, strokes: 4, theta_deg, pressure, degree: None })?;
         let (cycles, cycle_of) = (vec![Arc::new(cycle)], vec![Some(0); 2]);
-        Ok(Gas { cycles, cycle_of, crankcase: 1e5, later: vec![false; 2] })
+        let (crank_ends, later) = (Vec::new(), vec![false; 2]);
+        Ok(Gas { cycles, cycle_of, crank_ends, crankcase: 1e5, later })
     }
 
     fn factor(&self, rpm: f64) -> f64 {

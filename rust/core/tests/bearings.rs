@@ -34,6 +34,7 @@ fn fired(engine: &Engine, crankcase: f64, pressure: impl Fn(f64) -> f64) -> Engi
     let gas = Gas {
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
         cycle_of: (0..count).map(|i| (i != 2).then_some(0)).collect(),
+        crank_ends: Vec::new(),
         crankcase,
         later: vec![false; count],
     };

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Orders, Request, balance};
 use crankpin_core::engine::layout::Strokes;
-use crankpin_core::engine::{CrankIndex, Details, Gas, file};
+use crankpin_core::engine::{CrankEnd, CrankIndex, Details, Gas, file};
 use crankpin_core::pressure::Given;
 use crankpin_core::quantity::{Part, Quantity};
 use crankpin_core::sweep::{MapAxes, Statistic, SweepAxes};
@@ -65,7 +65,8 @@ fn twin(ratios: [i32; 2]) -> Engine {
 
 /// The second fires a turn after the first.
 fn gas(cycles: Vec<Arc<Cycle>>, cycle_of: [Option<usize>; 2]) -> Gas {
-    Gas { cycles, cycle_of: cycle_of.to_vec(), crankcase: CRANKCASE, later: vec![false, true] }
+    let (cycle_of, later) = (cycle_of.to_vec(), vec![false, true]);
+    Gas { cycles, cycle_of, crank_ends: Vec::new(), crankcase: CRANKCASE, later }
 }
 
 fn fired(ratios: [i32; 2]) -> Engine {
@@ -462,4 +463,131 @@ fn waveforms_of_a_fired_sweep_have_its_means() {
             }
         }
     }
+}
+
+// --- both faces of a piston ---
+
+fn bored(cylinder: Cylinder, tdc: f64, strokes: u32) -> Engine {
+    let place = Station {
+        cylinder,
+        tdc: angle(tdc),
+        bank: Angle::QUARTER_TURN,
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let known = Details { bore: Some(BORE), ..Details::default() };
+    let engine = Engine::new("", "", vec![place]).and_then(|e| e.with_details(vec![known]));
+    engine.and_then(|e| e.firing_as("", Strokes::from_number(strokes)?)).unwrap()
+}
+
+/// With cycles at the head end and the crank end, where it has them.
+fn acted_on(engine: &Engine, head: Option<Arc<Cycle>>, end: Option<(Arc<Cycle>, f64)>) -> Engine {
+    let cycle_of = vec![head.as_ref().map(|_| 0)];
+    let index = head.iter().count();
+    let crank_end = end.as_ref().map(|(_, d)| CrankEnd { cycle: index, rod_diameter: *d });
+    let cycles = head.into_iter().chain(end.map(|(cycle, _)| cycle)).collect();
+    let (crank_ends, later) = (vec![crank_end], vec![false]);
+    engine.with_gas(Gas { cycles, cycle_of, crank_ends, crankcase: CRANKCASE, later }).unwrap()
+}
+
+fn crank_torque(engine: &Engine, theta_deg: &[f64]) -> Vec<f64> {
+    let request = Request { rpm: 0.0, reference_z: None, torque: true };
+    let wave = waveform::exact(engine, &request, theta_deg, &Cancel::new()).unwrap();
+    let [_, crank] = wave.parts.into_iter().next().unwrap().torque.unwrap();
+    crank.to_vec()
+}
+
+fn gas_mean(engine: &Engine) -> f64 {
+    let request = Request { rpm: 0.0, reference_z: None, torque: true };
+    let orders = Orders::Given(vec![Order::FIRST]);
+    balance(engine, &request, &orders, &Cancel::new()).unwrap().mean(Part::GAS)[1]
+}
+
+#[test]
+fn pressure_on_both_faces_does_the_work_of_both_volumes() {
+    let other = |degrees: f64| 2e5 + 1e6 * (6.0 * (degrees.to_radians().cos() - 1.0)).exp();
+    for (offset, strokes, rod) in
+        [(0.0, 2, 0.0), (0.006, 2, 0.03), (-0.006, 4, 0.03), (0.0, 4, BORE)]
+    {
+        let bare = bored(Cylinder::new(RADIUS, ROD, 0.5, offset).unwrap(), 30.0, strokes);
+        let ends = [cycle(strokes), cycle_of(strokes, other)];
+        let both = acted_on(&bare, Some(Arc::clone(&ends[0])), Some((Arc::clone(&ends[1]), rod)));
+        let height = |θ: f64| {
+            let (sin, cos) = (θ - 30.0).to_radians().sin_cos();
+            RADIUS * cos + (ROD * ROD - (RADIUS * sin - offset).powi(2)).sqrt()
+        };
+        let lowest =
+            (0..3600).map(|k| 0.1 * f64::from(k)).min_by(|a, b| height(*a).total_cmp(&height(*b)));
+        let begins = both.pressures(0)[1].phase.degrees().rem_euclid(360.0);
+        assert!((begins - lowest.unwrap()).abs() < 0.06, "{begins} {lowest:?}");
+        let area = |diameter: f64| 0.25 * PI * diameter * diameter;
+        let degrees: Vec<f64> = (0..80).map(|k| 9.0 * f64::from(k)).collect();
+        let torque = crank_torque(&both, &degrees);
+        for (k, θ) in degrees.iter().enumerate() {
+            let slope = (height(θ + 1e-3) - height(θ - 1e-3)) / 2e-3_f64.to_radians();
+            let within = |after: f64| after.rem_euclid(180.0 * f64::from(strokes));
+            let head = (pressure(within(θ - 30.0)) - CRANKCASE) * area(BORE);
+            let end = (other(within(θ - begins)) - CRANKCASE) * (area(BORE) - area(rod));
+            // A table of whole degrees, and a difference quotient: 1e-6 of some 500 N·m.
+            assert!((torque[k] + (head - end) * slope).abs() < 2e-3, "{offset} {strokes} {θ}");
+        }
+        let [head, end] = [
+            acted_on(&bare, Some(Arc::clone(&ends[0])), None),
+            acted_on(&bare, None, Some((Arc::clone(&ends[1]), rod))),
+        ];
+        assert!((gas_mean(&both) - gas_mean(&head) - gas_mean(&end)).abs() < 1e-10);
+        if rod == BORE {
+            assert_eq!(torque, crank_torque(&head, &degrees));
+            assert_eq!(gas_mean(&end), 0.0);
+        }
+        let text = file::to_toml(&both).unwrap();
+        assert_eq!(file::from_toml(&text).unwrap(), both, "{text}");
+    }
+}
+
+#[test]
+fn the_inner_face_of_a_yoke_is_the_outer_one_of_its_mirror_image() {
+    let yoke = Cylinder::new(RADIUS, f64::INFINITY, 0.5, 0.0).unwrap();
+    let degrees: Vec<f64> = (0..72).map(|k| 5.0 * f64::from(k)).collect();
+    let inner = acted_on(&bored(yoke, 30.0, 2), None, Some((cycle(2), 0.0)));
+    let outer = acted_on(&bored(yoke, 210.0, 2), Some(cycle(2)), None);
+    for (one, other) in crank_torque(&inner, &degrees).iter().zip(crank_torque(&outer, &degrees)) {
+        // Torques of some 500 N·m.
+        assert!((one - other).abs() < 1e-10, "{one} {other}");
+    }
+    // Equal cycles at both ends: the mean of two.
+    let both = acted_on(&bored(yoke, 30.0, 2), Some(cycle(2)), Some((cycle(2), 0.0)));
+    assert!((gas_mean(&both) - 2.0 * gas_mean(&outer)).abs() < 1e-10);
+}
+
+#[test]
+fn crank_ends_that_cannot_be_are_named() {
+    let bare = bored(Cylinder::new(RADIUS, ROD, 0.5, 0.0).unwrap(), 0.0, 4);
+    let error = |engine: &Engine, index: usize, rod_diameter: f64| {
+        let crank_ends = vec![Some(CrankEnd { cycle: index, rod_diameter })];
+        let (cycles, cycle_of, later) = (vec![cycle(4)], vec![None], vec![false]);
+        let gas = Gas { cycles, cycle_of, crank_ends, crankcase: CRANKCASE, later };
+        engine.with_gas(gas).unwrap_err().to_string()
+    };
+    assert!(error(&bare, 1, 0.0).starts_with("crank_end[0] = 1"));
+    for diameter in [-0.01, 1.01 * BORE, f64::NAN] {
+        assert!(error(&bare, 0, diameter).starts_with("rod_diameter[0]"));
+    }
+    let known = Details { bore: Some(BORE), side_rods: true, ..Details::default() };
+    let upper = bare.with_details(vec![known]).unwrap();
+    assert!(error(&upper, 0, 0.0).contains("side rods"));
+    let dummy = Details { bore: Some(BORE), dummy: true, ..Details::default() };
+    assert!(error(&bare.with_details(vec![dummy]).unwrap(), 0, 0.0).contains("dummy"));
+    // Where the piston is lowest depends on rod and offset: swept pressure there would be another.
+    let offset = bored(Cylinder::new(RADIUS, ROD, 0.5, 0.004).unwrap(), 0.0, 4);
+    let axes = |engine: Engine| {
+        let engine = Arc::new(acted_on(&engine, None, Some((cycle(4), 0.01))));
+        let rod_ratio = Some(vec![0.2, 0.3]);
+        let ratios = SweepAxes { rod_ratio, rpm: vec![1000.0], ..SweepAxes::default() };
+        let orders = Orders::Given(vec![Order::FIRST]);
+        Sweep::new(vec![engine], ratios, &orders, None, true, &Cancel::new()).map(|_| ())
+    };
+    assert!(axes(bare).is_ok());
+    let error = axes(offset).unwrap_err().to_string();
+    assert!(error.contains("the chamber at the crank end of cylinder 1"), "{error}");
 }

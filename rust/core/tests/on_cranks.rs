@@ -160,15 +160,30 @@ fn opposed(lead: f64, ratio: i32, lower: Cylinder, upper: Cylinder, strokes: Str
     Engine::on_cranks(&[on(&lower, Crank::MAIN), above], Hold::Firing).unwrap()
 }
 
+/// The same on one crank: side rods drive the upper piston, whose crankpin stands opposite but for the lead.
+fn on_one_crank(lead: f64, lower: Cylinder, upper: Cylinder, strokes: Strokes) -> Engine {
+    let place = |cylinder, tdc| {
+        let bank = Angle::QUARTER_TURN;
+        Station { cylinder, tdc: angle(tdc), bank, z: 0.0, rotating_mass: 0.0 }
+    };
+    let known = |side_rods| Details { bore: Some(BORE), side_rods, ..Details::default() };
+    Engine::new("", "", vec![place(lower, 40.0), place(upper, 220.0 - lead)])
+        .and_then(|engine| engine.with_details(vec![known(false), known(true)]))
+        .and_then(|engine| engine.firing_as("", strokes))
+        .unwrap()
+}
+
 /// Volume of a chamber, but for a constant, and the angle at which it is smallest.
 fn volume(engine: &Engine, degrees: f64) -> f64 {
-    let down = |place: &Station| {
+    let down = |(place, details): (&Station, &Details)| {
         let gear = &place.cylinder;
         let (sin, cos) = (degrees - place.tdc.degrees()).to_radians().sin_cos();
         let (r, l, e) = (gear.crank_radius(), gear.rod_length(), gear.pin_offset());
-        -(r * cos + (l * l - (r * sin - e).powi(2)).sqrt())
+        let height = r * cos + (l * l - (r * sin - e).powi(2)).sqrt();
+        if details.side_rods { height } else { -height }
     };
-    0.25 * PI * BORE * BORE * engine.stations().iter().map(down).sum::<f64>()
+    let pistons = engine.stations().iter().zip(engine.details());
+    0.25 * PI * BORE * BORE * pistons.map(down).sum::<f64>()
 }
 
 fn cylinder(radius: f64, rod: f64, offset: f64) -> Cylinder {
@@ -179,9 +194,12 @@ fn cylinder(radius: f64, rod: f64, offset: f64) -> Cylinder {
 fn a_shared_chamber_fires_once_where_it_is_smallest_and_does_its_work() {
     let usual = cylinder(0.04, 0.13, 0.0);
     for upper in [usual, cylinder(0.03, 0.13, 0.0), cylinder(0.04, 0.16, 0.005)] {
-        for (lead, ratio) in [(0.0, 1), (20.0, -1), (-35.0, 1), (90.0, -1)] {
+        for (lead, ratio) in [(0.0, 1), (20.0, -1), (-35.0, 1), (90.0, -1), (0.0, 0), (20.0, 0)] {
             for strokes in [Strokes::Two, Strokes::Four] {
-                let engine = Arc::new(opposed(lead, ratio, usual, upper, strokes));
+                let engine = Arc::new(match ratio {
+                    0 => on_one_crank(lead, usual, upper, strokes),
+                    _ => opposed(lead, ratio, usual, upper, strokes),
+                });
                 let firing = Firing::all(&engine, strokes, &Cancel::new()).unwrap();
                 assert_eq!((firing.len(), firing[0].to_string().as_str()), (1, "1"));
                 let fires = firing[0].angles()[0].degrees();
@@ -264,4 +282,32 @@ fn parts_that_the_whole_engine_must_have_are_rejected_by_name() {
     let nowhere = Crank { ratio: SpeedRatio::whole(0), ..against };
     assert!(error(&single, nowhere).starts_with("cranks[1].ratio = 0"));
     assert!(Engine::on_cranks(&[], Hold::Pins).is_err());
+}
+
+#[test]
+fn one_crank_carries_the_pistons_of_a_chamber_without_loading_its_bearings() {
+    use crankpin_core::bearing_loads::BearingLoadsModel;
+    // Infinite rods, equal throws: what pushes one piston down pulls the other up, at every crank angle.
+    let yoke = cylinder(0.04, f64::INFINITY, 0.0);
+    let engine = on_one_crank(0.0, yoke, yoke, Strokes::Two);
+    let fired = engine.fired_by(cycle(2), vec![false; 2]).unwrap();
+    let degrees: Vec<f64> = (0..36).map(|k| 10.0 * f64::from(k)).collect();
+    let loads = |engine: &Engine| {
+        let model = BearingLoadsModel::new(engine, RPM).unwrap();
+        model.loads(&degrees, &Cancel::new()).unwrap()
+    };
+    let (with, without) = (loads(&fired), loads(&engine));
+    let crankcase = fired.gas().unwrap().crankcase;
+    for (k, &θ) in degrees.iter().enumerate() {
+        let force = 0.25 * PI * BORE * BORE * (pressure((θ - 40.0).rem_euclid(360.0)) - crankcase);
+        // Forces of 1.5·10⁴ N.
+        let [lower, upper] = [0, 1].map(|i| with.gas[[i, k]]);
+        assert!(
+            (lower - force).abs() < 1e-6 && (lower + upper).abs() < 1e-6,
+            "{θ} {lower} {upper} {force}"
+        );
+        for main in 0..with.main.dim().0 {
+            assert!((with.main[[main, k, 1]] - without.main[[main, k, 1]]).abs() < 1e-8, "{θ}");
+        }
+    }
 }

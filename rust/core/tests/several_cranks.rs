@@ -8,7 +8,7 @@ use common::random::{angles, cylinders, weighted};
 use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, ErrorBounds, Request, Vector};
 use crankpin_core::engine::{
-    ActsOn, Amplitudes, CrankIndex, Details, Gas, Origin, OverSpeed, PeriodicLoad,
+    ActsOn, Amplitudes, CrankEnd, CrankIndex, Details, Gas, Origin, OverSpeed, PeriodicLoad,
 };
 use crankpin_core::exact::vanishing::{ProofQuantity, QUANTITIES, Verdict, vanishing};
 use crankpin_core::flywheel::{CrankDrive, CycleGrid, FlywheelTarget};
@@ -49,21 +49,26 @@ fn engines() -> impl Strategy<Value = Engine> {
     })
 }
 
-/// The same with pressure in some cylinders, of those on cranks as fast as the main one.
+/// The same with pressure in some cylinders, and at some crank ends, of those on cranks as fast as the main one.
 fn fired(engines: impl Strategy<Value = Engine>) -> impl Strategy<Value = Engine> {
     let theta_deg: Vec<f64> = (0..48).map(|k| 15.0 * f64::from(k)).collect();
     let at = |θ: &f64| 1e5 + 3e6 * (-0.02 * f64::abs(θ - 15.0)).exp();
     let pressure = theta_deg.iter().map(at).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
     let cycle = Arc::new(Cycle::new(given).unwrap());
-    let fires = proptest::collection::vec([any::<bool>(), any::<bool>()], 7);
-    (engines, fires).prop_map(move |(engine, fires)| {
+    let fires = proptest::collection::vec([any::<bool>(), any::<bool>(), any::<bool>()], 7);
+    (engines, fires, select(vec![0.0, 0.03])).prop_map(move |(engine, fires, rod_diameter)| {
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
         let cylinders = 0..engine.stations().len();
         let cycle_of = |i: usize| (fires[i][0] && ratio(i).is_crank_speed()).then_some(0);
+        let crank_end = |i: usize| {
+            let acts = fires[i][2] && ratio(i).is_crank_speed();
+            acts.then_some(CrankEnd { cycle: 0, rod_diameter })
+        };
         let gas = Gas {
             cycles: vec![Arc::clone(&cycle)],
             cycle_of: cylinders.clone().map(cycle_of).collect(),
+            crank_ends: cylinders.clone().map(crank_end).collect(),
             crankcase: 1e5,
             later: cylinders.clone().map(|i| fires[i][1]).collect(),
         };

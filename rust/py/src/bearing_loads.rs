@@ -2,7 +2,7 @@
 
 use crate::array::frozen;
 use crankpin_core::bearing_loads::{
-    self, Bearing, BearingLoads, CutPart, Extremes, Sections, TurningAxes,
+    self, Bearing, BearingLoads, CutPart, Extremes, Peak, RodLoads, Sections, TurningAxes,
 };
 use crankpin_core::engine::CrankIndex;
 use crankpin_core::index::ListIndex;
@@ -14,6 +14,15 @@ use pyo3::types::PyDict;
 use crate::convert::OrRaise;
 use crate::engine::{Engine, choice};
 use crate::interrupt;
+
+/// Loads at the pin of a piston: least and largest values, N, each with its angle, degrees.
+#[derive(IntoPyObject)]
+struct RodFigures {
+    load: [(f64, f64); 2],
+    gas: [(f64, f64); 2],
+    inertia: [(f64, f64); 2],
+    tension_deg: Vec<(f64, f64)>,
+}
 
 /// An engine with main bearings at a speed.
 #[pyclass(frozen, module = "crankpin._core")]
@@ -75,6 +84,35 @@ impl BearingLoadsModel {
         let thetas = theta_deg.as_slice()?;
         let found = interrupt::run(py, |cancel| self.0.turned(bearing, axes, thetas, cancel))?;
         frozen(py, found)
+    }
+
+    /// Loads along the bore at the pin of each piston, N, and angles, degrees: least and largest of all, of gas and
+    /// of inertia; and the ranges of angles of tension.
+    fn rod_loads(&self, py: Python<'_>, cycle_deg: u32) -> PyResult<Vec<RodFigures>> {
+        let found = interrupt::run(py, |cancel| self.0.rod_loads(cycle_deg, cancel))?;
+        let pair = |ends: [Peak; 2]| ends.map(|peak| (peak.value, peak.theta_deg));
+        let figures = |of: RodLoads| RodFigures {
+            load: pair(of.combined),
+            gas: pair(of.gas),
+            inertia: pair(of.inertia),
+            tension_deg: of.tension_deg.into_iter().map(|[from, to]| (from, to)).collect(),
+        };
+        Ok(found.into_iter().map(figures).collect())
+    }
+
+    /// The same at crank angles, degrees, by name: rows of cylinders.
+    fn rod_load_curves<'py>(
+        &self,
+        py: Python<'py>,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let thetas = theta_deg.as_slice()?;
+        let found = interrupt::run(py, |cancel| self.0.rod_load_curves(thetas, cancel))?;
+        let loads = PyDict::new(py);
+        for (name, rows) in ["rod_load", "gas_load", "inertia_load"].into_iter().zip(found) {
+            loads.set_item(name, frozen(py, rows)?)?;
+        }
+        Ok(loads)
     }
 
     /// Index of the crank and place of each main bearing.

@@ -8,8 +8,8 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, CrankIndex, Details, EngineOnCrank, Gas, Hold, PeriodicLoad, RodFigures, Shaft, Station,
-    Unbalance, file,
+    Crank, CrankEnd, CrankIndex, Details, EngineOnCrank, Gas, Hold, PeriodicLoad, RodFigures,
+    Shaft, Station, Unbalance, file,
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
@@ -65,8 +65,9 @@ struct Bay<'py> {
     crank: usize,
 }
 
-/// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy.
-type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool);
+/// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy, or driven by side
+/// rods.
+type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool, bool);
 
 /// A crankpin: numbers of its cylinders, its place, m, and index of its crank.
 #[derive(IntoPyObject)]
@@ -574,7 +575,7 @@ impl Engine {
             .iter()
             .map(|d| {
                 let rod = d.rod.map(|r| (r.mass, r.inertia, r.to_crankpin));
-                (d.bore, d.piston_mass, rod, d.dummy)
+                (d.bore, d.piston_mass, rod, d.dummy, d.side_rods)
             })
             .collect()
     }
@@ -587,10 +588,11 @@ impl Engine {
         reference_z: Option<f64>,
     ) -> PyResult<Self> {
         let details = details.into_iter();
-        let details = details.map(|(bore, piston_mass, rod, dummy)| Details {
+        let details = details.map(|(bore, piston_mass, rod, dummy, side_rods)| Details {
             bore,
             piston_mass,
             dummy,
+            side_rods,
             rod: rod.map(|(mass, inertia, to_crankpin)| RodFigures { mass, inertia, to_crankpin }),
         });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
@@ -614,19 +616,29 @@ impl Engine {
     }
 
     /// The engine with cycles, the index of that of each cylinder, or none, and a crankcase pressure,
-    /// firing in its own firing order.
+    /// firing in its own firing order; of crank ends the index of the cycle and the rod's diameter.
     fn with_cycles(
         &self,
         py: Python<'_>,
         cycles: Vec<PyRef<'_, Cycle>>,
         cycle_of: Vec<Option<usize>>,
         crankcase: f64,
+        crank_ends: Vec<Option<(usize, f64)>>,
     ) -> PyResult<Self> {
-        // The camshaft is that of the whole engine, also where some cylinders do not fire.
-        let whole = Arc::new(self.0.without_gas());
-        let firing = interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?;
+        let later = if self.0.strokes() == Strokes::Two && self.0.firing_order().is_empty() {
+            // In every turn, in whatever order.
+            vec![false; self.0.stations().len()]
+        } else {
+            // The camshaft is that of the whole engine, also where some cylinders do not fire.
+            let whole = Arc::new(self.0.without_gas());
+            interrupt::run(py, |cancel| core::Firing::own(&whole, cancel))?.fires_in_second_turn()
+        };
         let cycles = cycles.iter().map(|cycle| Arc::clone(&cycle.0)).collect();
-        let gas = Gas { cycles, cycle_of, crankcase, later: firing.fires_in_second_turn() };
+        let crank_ends = crank_ends
+            .into_iter()
+            .map(|end| end.map(|(cycle, rod_diameter)| CrankEnd { cycle, rod_diameter }))
+            .collect();
+        let gas = Gas { cycles, cycle_of, crank_ends, crankcase, later };
         self.0.with_gas(gas).or_raise().map(Self::from)
     }
 
@@ -644,6 +656,7 @@ impl Engine {
         };
         let gas = Gas {
             cycle_of: cylinders.iter().map(|&i| gas.cycle_of[i]).collect(),
+            crank_ends: cylinders.iter().map(|&i| gas.crank_end(i)).collect(),
             later: cylinders.iter().map(|&i| gas.later[i]).collect(),
             crankcase: crankcase.unwrap_or(gas.crankcase),
             ..gas.clone()
@@ -674,6 +687,26 @@ impl Engine {
         let gas = self.0.gas()?;
         let cycle = |index: &Option<usize>| index.map(|k| Cycle(Arc::clone(&gas.cycles[k])));
         Some(gas.cycle_of.iter().map(cycle).collect())
+    }
+
+    /// The cycle at the crank end of each cylinder and the rod's diameter, m, or none; None without any.
+    #[getter]
+    fn crank_ends(&self) -> Option<Vec<Option<(Cycle, f64)>>> {
+        let gas = self.0.gas().filter(|gas| !gas.crank_ends.is_empty())?;
+        let end = |end: CrankEnd| (Cycle(Arc::clone(&gas.cycles[end.cycle])), end.rod_diameter);
+        Some((0..self.0.stations().len()).map(|i| gas.crank_end(i).map(end)).collect())
+    }
+
+    /// Cycles and the crank angles at which they begin, degrees, of all faces on which pressure acts.
+    #[getter]
+    fn face_cycles(&self) -> Vec<(f64, Cycle)> {
+        let pressures = (0..self.0.stations().len()).flat_map(|i| self.0.pressures(i));
+        pressures.map(|face| (face.phase.degrees(), Cycle(face.cycle))).collect()
+    }
+
+    /// Mean torque of pressure on each piston on the main crank, N·m.
+    fn mean_gas_torques(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
+        interrupt::run(py, |cancel| self.0.mean_gas_torques(cancel))
     }
 
     /// Absolute pressure in the crankcase, Pa.

@@ -8,7 +8,7 @@ use crankpin_core as core;
 use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
-use crankpin_core::pressure::chamber::{Chamber, Ideal};
+use crankpin_core::pressure::chamber::{Chamber, Compressor, Face, Ideal, Swept};
 use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::pressure::map::between;
 use crankpin_core::{Complex64, order};
@@ -153,6 +153,25 @@ impl Cycle {
         ideal.cycle(&chamber, name).or_raise().map(Self::from)
     }
 
+    /// A compressor's at an end of a piston: `discharge` is None for an end that is unloaded.
+    #[staticmethod]
+    fn compressor(
+        parts: Parts,
+        end: &str,
+        name: String,
+        figures: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let compressor = Compressor {
+            suction: entry(figures, "suction")?,
+            discharge: entry(figures, "discharge")?,
+            clearance: entry(figures, "clearance")?,
+            n: entry(figures, "n")?,
+            expansion_n: entry(figures, "expansion_n")?,
+        };
+        let swept = Swept::new(&cylinder(parts)?, face(end)?);
+        compressor.cycle(&swept, name).or_raise().map(Self::from)
+    }
+
     /// One zone with a Wiebe burn: `heat` in J, or None for that of fuel at `excess_air`; a wall
     /// temperature or None.
     #[staticmethod]
@@ -255,9 +274,9 @@ impl Cycle {
     }
 
     /// Indicated mean effective pressure over a cylinder's piston, Pa.
-    fn imep(&self, py: Python<'_>, parts: Parts) -> PyResult<f64> {
-        let cylinder = cylinder(parts)?;
-        interrupt::run(py, |cancel| self.0.imep(&cylinder, cancel))
+    fn imep(&self, py: Python<'_>, parts: Parts, end: &str) -> PyResult<f64> {
+        let (cylinder, face) = (cylinder(parts)?, face(end)?);
+        interrupt::run(py, |cancel| self.0.imep_at(face, &cylinder, cancel))
     }
 
     /// Torque over piston area and crank radius above a crankcase pressure: mean, phasors at orders
@@ -279,6 +298,11 @@ impl Cycle {
             interrupt::run(py, |cancel| self.0.torque_of(&mechanism, crankcase, &orders, cancel))?;
         Ok((torque.mean, writeable(py, torque.phasors.into())?))
     }
+}
+
+/// The face of a piston at an end of its cylinder.
+fn face(end: &str) -> PyResult<Face> {
+    choice("end", end, &[("head", Face::Outer), ("crank", Face::Inner)])
 }
 
 fn chamber(parts: Parts, bore: f64, compression_ratio: f64, strokes: u32) -> PyResult<Chamber> {

@@ -563,7 +563,14 @@ class Powertrain(Framed, Input):
         if all(one is None for one in of_cylinders):
             hint = "it is the last that fires; give engine.with_cycle(None), without gas at all"
             raise inputs.rejected("cylinder", number, hint)
-        return self.replace(engine=self.engine.with_cycle(of_cylinders))
+        ends = [
+            one if k != number else None for k, one in enumerate(self.engine.crank_ends or (), 1)
+        ]
+        if not any(ends):
+            return self.replace(engine=self.engine.with_cycle(of_cylinders))
+        rods = self.engine.rod_diameter
+        fired = self.engine.with_cycle(of_cylinders, crank_end=ends, rod_diameter=rods)
+        return self.replace(engine=fired)
 
     # --- pages ------------------------------------------------------------------------------------
 

@@ -51,6 +51,9 @@ class GasMap(Record):
                     "cycle", f"has maps that differ in {axis}", f"give the same {axis}"
                 )
         for engine in engines:
+            if engine.crank_ends is not None:
+                hint = "maps are of head ends alone: give engines without crank ends"
+                raise inputs.faulty("cycle", "replaces those of double-acting pistons", hint)
             if not alone and len(maps) != len(engine):
                 fault = f"has {len(maps)} entries, the engine has {len(engine)}"
                 raise inputs.faulty("cycle", fault, "give one for each cylinder")
@@ -95,6 +98,7 @@ class GasMap(Record):
                 self._cycles[0],
                 self._of_each(cycle_of, engine),
                 engine._below_pistons(self.crankcase),
+                [],
             )
             for engine in engines
         ]

@@ -46,8 +46,9 @@ export class Numbers {
     this.loads = column(ofLoads, 0);
     this.loadsOnCrank = column(ofLoads, 1);
     this.moving = torque && new Map([...torque].flatMap(([n, [, moving]]) => (moving ? [[n, moving]] : [])));
-    /** Gas pressure on each piston; null where there is none. */
-    this.gas = figures.cylinders.map((given) => (given.cycle === null ? null : {
+    /** Gas pressure on each piston, then at crank ends; null where there is none. */
+    const crankEnds = figures.cylinders.flatMap((given) => (given.crank_end ? [{ ...given, ...given.crank_end }] : []));
+    this.gas = [...figures.cylinders, ...crankEnds].map((given) => (given.cycle === null ? null : {
       ...given,
       panels: figures.gas.cycles[given.cycle],
       crankcase: figures.gas.crankcase,

@@ -1,7 +1,9 @@
-//! Chambers that two pistons share: they face each other along one bore, each on a crank of its own.
+//! Chambers that two pistons share: they face each other along one bore, each on a crank of its own, or on one crank,
+//! where side rods drive the upper one, whose inner face is at the chamber.
 
 use std::sync::Arc;
 
+use super::faces::Face;
 use super::layout::Strokes;
 use super::{Engine, Gas};
 use crate::Complex64;
@@ -22,8 +24,23 @@ const BISECTIONS: usize = 60;
 pub struct SharedChamber {
     /// Indices of the cylinders, the lower first: under its number the chamber fires.
     pub pistons: [usize; 2],
+    /// The face of each that is at the chamber.
+    pub faces: [Face; 2],
     /// Angle of the main crank from the top dead centre of each to where the chamber is smallest.
     pub delays: [Angle; 2],
+}
+
+impl SharedChamber {
+    /// Angle from the dead centre of a piston at its face, by its place, to where the chamber is smallest.
+    fn past_dead_centre(&self, place: usize) -> Angle {
+        self.delays[place] - self.faces[place].dead_centre()
+    }
+
+    /// Whether it is smallest elsewhere with rods of another length.
+    fn is_timed_by_rods(&self) -> bool {
+        self.past_dead_centre(0) != -self.past_dead_centre(1)
+            || self.faces[0] != self.faces[1] && self.past_dead_centre(0) != Angle::ZERO
+    }
 }
 
 impl Engine {
@@ -43,11 +60,15 @@ impl Engine {
         cylinders().filter(|&i| self.fires_as(i) == i).map(of).collect()
     }
 
-    /// Angle of the main crank from a piston's top dead centre to where the chamber is smallest that it shares;
-    /// none where it shares none.
+    /// Angle of the main crank from a piston's top dead centre to where its chamber is smallest, if it shares that or
+    /// side rods drive it; none of a chamber over one piston, whose cycle begins at top dead centre.
     #[must_use]
     pub fn chamber_delay(&self, cylinder: usize) -> Option<Angle> {
-        self.shared_chamber(cylinder).map(|(chamber, place)| chamber.delays[place])
+        let shared = self.shared_chamber(cylinder).map(|(chamber, place)| chamber.delays[place]);
+        shared.or_else(|| {
+            let is_inner = self.working_face(cylinder) == Face::Inner;
+            is_inner.then(|| self.lowest_after_tdc(cylinder))
+        })
     }
 
     /// The cylinder under whose number its chamber fires.
@@ -59,30 +80,45 @@ impl Engine {
     /// Whether a chamber is smallest elsewhere with rods of another length: where its pistons are unlike, or offset.
     #[must_use]
     pub fn rods_time_chambers(&self) -> bool {
-        self.shared_chambers().iter().any(|chamber| chamber.delays[0] != -chamber.delays[1])
+        self.shared_chambers().iter().any(SharedChamber::is_timed_by_rods)
+            || (0..self.stations.len()).any(|i| self.rods_time_inner_chamber(i))
+    }
+
+    /// Whether the chamber at the inner face of a piston alone is smallest elsewhere with rods of another length.
+    fn rods_time_inner_chamber(&self, cylinder: usize) -> bool {
+        self.has_inner_chamber(cylinder) && self.stations[cylinder].cylinder.pin_offset() != 0.0
     }
 
     /// Rejects another rod ratio, or pin offset, where pressure acts in chambers that are smallest elsewhere then.
     pub(crate) fn check_chambers_keep(&self, changed: &'static str) -> Result<()> {
-        let fires = |chamber: &SharedChamber| self.cycle_of(chamber.pistons[0]).is_some();
-        let is_moved = changed == "pin_offset" || self.rods_time_chambers();
-        match self.shared_chambers().iter().find(|chamber| is_moved && fires(chamber)) {
-            None => Ok(()),
-            Some(&SharedChamber { pistons: [one, other], .. }) => {
-                let hint = format!(
-                    "the chamber that cylinders {} and {} share is smallest elsewhere at each; give an engine for \
-                     each, or one without pressure",
-                    one + 1,
-                    other + 1
-                );
-                Err(Error::value(changed, "swept", hint))
+        let is_offset_swept = changed == "pin_offset";
+        let is_moved = |chamber: &&SharedChamber| {
+            let fires = self.cycle_of(chamber.pistons[0]).is_some();
+            fires && (is_offset_swept || chamber.is_timed_by_rods())
+        };
+        let shared = self.shared_chambers();
+        let which = if let Some(chamber) = shared.iter().find(is_moved) {
+            let [one, other] = chamber.pistons.map(|i| i + 1);
+            format!("the chamber that cylinders {one} and {other} share")
+        } else {
+            let is_moved = |&i: &usize| {
+                let offset = is_offset_swept || self.rods_time_inner_chamber(i);
+                offset && self.has_inner_chamber(i) && self.has_pressure(i)
+            };
+            match (0..self.stations.len()).find(is_moved) {
+                None => return Ok(()),
+                Some(i) => format!("the chamber at the crank end of cylinder {}", i + 1),
             }
-        }
+        };
+        let hint = format!(
+            "{which} is smallest elsewhere at each; give an engine for each, or one without pressure"
+        );
+        Err(Error::value(changed, "swept", hint))
     }
 
     /// The chamber that a piston shares, and its place there.
     fn shared_chamber(&self, cylinder: usize) -> Option<(SharedChamber, usize)> {
-        if self.cranks.len() == 1 {
+        if self.cranks.len() == 1 && !self.details.iter().any(|of| of.side_rods) {
             return None;
         }
         let place = |chamber: &SharedChamber| {
@@ -92,13 +128,18 @@ impl Engine {
         self.shared_chambers().iter().find_map(place)
     }
 
-    /// Pairs of pistons that face each other along one bore, on different cranks.
+    /// Pairs of pistons that face each other along one bore: on different cranks, or on one by side rods.
     fn facing_pistons(&self) -> Vec<[usize; 2]> {
         let is_facing = |one: usize, other: usize| {
             let [a, b] = [one, other].map(|i| &self.stations[i]);
             let [from, to] = [one, other].map(|i| self.cranks[self.crank_of[i]].axis);
             let apart = Complex64::new(to[0] - from[0], to[1] - from[1]);
             let along = apart * a.bank.cis(-1);
+            if self.crank_of[one] == self.crank_of[other] {
+                let size = a.cylinder.reach() + b.cylinder.reach();
+                let is_beside = (a.z - b.z).abs() > FACING_TOLERANCE * size;
+                return b.bank.is_direction_of(a.bank) && !is_beside;
+            }
             let is_opposite = b.bank.is_direction_of(a.bank + Angle::HALF_TURN);
             let is_beside = (a.z - b.z).abs().max(along.im.abs()) > FACING_TOLERANCE * apart.norm();
             is_opposite && !is_beside && along.re > 0.0
@@ -110,7 +151,14 @@ impl Engine {
         let mut pairs = Vec::new();
         while let [one, rest @ ..] = &free[..] {
             let one = *one;
-            let is_other = |&other: &usize| self.crank_of[one] != self.crank_of[other];
+            let is_other = |&other: &usize| {
+                let side_rods = [one, other].map(|i| self.details[i].side_rods);
+                if self.crank_of[one] == self.crank_of[other] {
+                    side_rods[0] != side_rods[1]
+                } else {
+                    side_rods == [false; 2]
+                }
+            };
             let facing = rest.iter().copied().filter(is_other).find(|&other| is_facing(one, other));
             free.retain(|&i| i != one && Some(i) != facing);
             pairs.extend(facing.map(|other| [one, other]));
@@ -119,42 +167,50 @@ impl Engine {
     }
 
     fn chamber(&self, pistons: [usize; 2]) -> SharedChamber {
-        let [one, other] = pistons.map(|i| &self.stations[i]);
-        let apart = (other.tdc - one.tdc + Angle::HALF_TURN).reduced() - Angle::HALF_TURN;
+        let faces = pistons.map(|i| self.working_face(i));
+        let [one, other] = [0, 1].map(|k| self.stations[pistons[k]].tdc + faces[k].dead_centre());
+        let apart = (other - one + Angle::HALF_TURN).reduced() - Angle::HALF_TURN;
         let sizes = |i: usize| {
             let gear = &self.stations[i].cylinder;
             (gear.crank_radius(), gear.rod_length(), self.details[i].bore)
         };
         let is_even = pistons.iter().all(|&i| self.stations[i].cylinder.pin_offset() == 0.0);
-        let first = if is_even && sizes(pistons[0]) == sizes(pistons[1]) {
+        let is_alike = faces[0] == faces[1] && sizes(pistons[0]) == sizes(pistons[1]);
+        let first = if is_even && (is_alike || apart == Angle::ZERO) {
             apart.half()
         } else {
             // An angle that is finite.
-            Angle::from_degrees(self.smallest_after(pistons, apart.degrees()))
+            Angle::from_degrees(self.smallest_after(pistons, faces, apart.degrees()))
                 .unwrap_or(apart.half())
         };
-        SharedChamber { pistons, delays: [first, first - apart] }
+        let delays = [first + faces[0].dead_centre(), first - apart + faces[1].dead_centre()];
+        SharedChamber { pistons, faces, delays }
     }
 
-    /// Degrees from the top dead centre of the first piston, of which the other's is so far apart, to where the
+    /// Degrees from the dead centre of the first piston at its face, of which the other's is so far apart, to where the
     /// volume between both is smallest.
-    fn smallest_after(&self, pistons: [usize; 2], apart: f64) -> f64 {
+    fn smallest_after(&self, pistons: [usize; 2], faces: [Face; 2], apart: f64) -> f64 {
         let swept = pistons.map(|i| self.swept_by_radius(i));
         let weights = match swept {
             [Some(one), Some(other)] => [one, other],
             _ => pistons.map(|i| self.stations[i].cylinder.crank_radius()),
         };
         let mechanisms = pistons.map(|i| self.mechanism(i));
+        let dead_centres = faces.map(|face| face.dead_centre().degrees());
         let grows = |degrees: f64| {
-            let rate = |k: usize, angle: f64| {
-                let unit = cis_degrees(angle);
-                weights[k] * mechanisms[k].motion(&CrankPosition::new(unit.im, unit.re)).velocity
+            let rate = |k: usize, past: f64| {
+                let unit = cis_degrees(past + dead_centres[k]);
+                let motion = mechanisms[k].motion(&CrankPosition::new(unit.im, unit.re));
+                faces[k].sign() * weights[k] * motion.velocity
             };
-            // A piston that moves away from its crank makes the chamber smaller.
+            // A piston that moves away from its crank makes the chamber at its outer face smaller.
             rate(0, degrees) + rate(1, degrees - apart) < 0.0
         };
-        let highest = pistons.map(|i| self.stations[i].cylinder.turning_points_deg()[0]);
-        let ends = [highest[0], apart + highest[1]];
+        let smallest = |k: usize| {
+            let turning = self.stations[pistons[k]].cylinder.turning_points_deg();
+            turning[faces[k].turning_point()] - dead_centres[k]
+        };
+        let ends = [smallest(0), apart + smallest(1)];
         let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
@@ -165,7 +221,8 @@ impl Engine {
 
     /// Rejects pressure of shared chambers that is not one cycle's, or that fires twice in it.
     pub(super) fn check_shared_pressure(&self, gas: &Gas) -> Result<()> {
-        for &SharedChamber { pistons: [one, other], delays } in self.shared_chambers().iter() {
+        for chamber in self.shared_chambers().iter() {
+            let [one, other] = chamber.pistons;
             let named =
                 format!("cylinders {} and {} are the two ends of one chamber", one + 1, other + 1);
             if gas.cycle_of[one] != gas.cycle_of[other] {
@@ -175,7 +232,7 @@ impl Engine {
             if gas.cycle_of[one].is_none() {
                 continue;
             }
-            let lead = (delays[0] - delays[1]).degrees().abs();
+            let lead = (chamber.past_dead_centre(0) - chamber.past_dead_centre(1)).degrees().abs();
             if lead > LARGEST_LEAD {
                 let hint = format!(
                     "{named}, which needs cranks at most {LARGEST_LEAD}° apart; these are {lead}°"

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance};
+use super::{
+    Crank, CrankEnd, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+};
 use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::Powertrain;
 use crate::mounts::file::PowertrainEntry;
@@ -96,6 +98,9 @@ struct PartsEntry {
     /// Whether the piston balances and never has gas.
     #[serde(default, skip_serializing_if = "is_default")]
     dummy: bool,
+    /// Whether side rods drive the piston from the far side of its chamber.
+    #[serde(default, skip_serializing_if = "is_default")]
+    side_rods: bool,
 }
 
 /// A number, as which null is infinite.
@@ -130,6 +135,12 @@ struct StationEntry {
     /// Number of the cycle, from 1.
     #[serde(default, skip_serializing_if = "is_default")]
     cycle: Option<usize>,
+    /// Number of the cycle at the crank end of a double-acting piston, from 1.
+    #[serde(default, skip_serializing_if = "is_default")]
+    crank_end: Option<usize>,
+    /// Diameter of its piston rod.
+    #[serde(default, skip_serializing_if = "is_default")]
+    rod_diameter: f64,
     /// Whether it fires at the top dead centre of the second turn.
     #[serde(default, skip_serializing_if = "is_default")]
     second_turn: Option<bool>,
@@ -286,6 +297,7 @@ impl PartsEntry {
             piston_mass: details.piston_mass,
             rod: details.rod,
             dummy: details.dummy,
+            side_rods: details.side_rods,
         }
     }
 
@@ -295,8 +307,8 @@ impl PartsEntry {
     }
 
     fn details(&self) -> Details {
-        let Self { bore, piston_mass, rod, dummy, .. } = *self;
-        Details { bore, piston_mass, rod, dummy }
+        let Self { bore, piston_mass, rod, dummy, side_rods, .. } = *self;
+        Details { bore, piston_mass, rod, dummy, side_rods }
     }
 }
 
@@ -324,6 +336,11 @@ impl EngineFile {
             bank: numbered.then(|| number(engine.bank_of(i))),
             crank: engine.crank_of(i).position(),
             cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
+            crank_end: engine.gas().and_then(|gas| gas.crank_end(i)).map(|end| end.cycle + 1),
+            rod_diameter: engine
+                .gas()
+                .and_then(|gas| gas.crank_end(i))
+                .map_or(0.0, |end| end.rod_diameter),
             // Of an engine with pressure false is left out; without, that all are given says which.
             second_turn: engine
                 .turns()
@@ -381,11 +398,15 @@ impl EngineFile {
     /// Pressure in the cylinders.
     fn gas(&mut self) -> Result<Option<Gas>> {
         if self.cycles.is_empty() {
-            let numbered = self.placements.iter().position(|place| place.cycle.is_some());
+            let numbered = (0..).zip(&self.placements).find_map(|(i, place): (usize, _)| {
+                let named = [("cycle", place.cycle), ("crank_end", place.crank_end)];
+                let (name, _) = named.into_iter().find(|(_, number)| number.is_some())?;
+                Some(format!("placements[{i}].{name}"))
+            });
             return match (numbered, self.crankcase) {
-                (Some(i), _) => {
+                (Some(argument), _) => {
                     let hint = "is the number of one of the cycles, of which there are none";
-                    Err(Error::value(format!("placements[{i}].cycle"), "given", hint))
+                    Err(Error::value(argument, "given", hint))
                 }
                 (None, Some(pressure)) => {
                     let hint = "is of an engine with cycles; leave it out";
@@ -394,17 +415,35 @@ impl EngineFile {
                 (None, None) => Ok(None),
             };
         }
-        let cycle = |(i, place): (usize, &StationEntry)| {
+        let index = |i: usize, name: &str, number: Option<usize>| {
             let hint = "give the number of a cycle, from 1";
-            let index = place.cycle.map(|number| number.checked_sub(1).ok_or(number)).transpose();
-            index.map_err(|number| Error::value(format!("placements[{i}].cycle"), number, hint))
+            let index = number.map(|number| number.checked_sub(1).ok_or(number)).transpose();
+            index.map_err(|number| Error::value(format!("placements[{i}].{name}"), number, hint))
         };
+        let places = || self.placements.iter().enumerate();
+        let cycle_of = places().map(|(i, place)| index(i, "cycle", place.cycle));
+        let cycle_of: Vec<Option<usize>> = cycle_of.collect::<Result<_>>()?;
+        let crank_end = |(i, place): (usize, &StationEntry)| {
+            let rod_diameter = place.rod_diameter;
+            let cycle = index(i, "crank_end", place.crank_end)?;
+            if cycle.is_none() && rod_diameter != 0.0 {
+                let hint = "is of a piston with a cycle at its crank end; leave it out";
+                let argument = format!("placements[{i}].rod_diameter");
+                return Err(Error::figure(argument, rod_diameter, hint));
+            }
+            Ok(cycle.map(|cycle| CrankEnd { cycle, rod_diameter }))
+        };
+        let mut crank_ends: Vec<_> = places().map(crank_end).collect::<Result<_>>()?;
+        if crank_ends.iter().all(Option::is_none) {
+            crank_ends.clear();
+        }
         let cycles = mem::take(&mut self.cycles).into_iter().enumerate().map(|(k, entry)| {
             entry.cycle().map_err(|error| error.within(&format!("cycles[{k}].")))
         });
         Ok(Some(Gas {
             cycles: cycles.collect::<Result<_>>()?,
-            cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
+            cycle_of,
+            crank_ends,
             crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
             later: self.placements.iter().map(|place| place.second_turn.unwrap_or(false)).collect(),
         }))
@@ -701,6 +740,7 @@ mod tests {
                 let engine =
                     Engine::new(name, "", stations).unwrap().firing_as("1", Strokes::Two).unwrap();
                 let details = |i: usize| Details {
+                    side_rods: i % 3 == 1,
                     dummy: i.is_multiple_of(4),
                     bore: i.is_multiple_of(2).then_some(0.08),
                     piston_mass: i.is_multiple_of(3).then_some(0.3),
@@ -919,7 +959,8 @@ mod tests {
         let bare = Engine::new("", "", vec![place]).unwrap().with_details(vec![bore]).unwrap();
         let fired = |cycle: Cycle| {
             let (cycles, cycle_of) = (vec![Arc::new(cycle)], vec![Some(0)]);
-            let gas = Gas { cycles, cycle_of, crankcase: ATMOSPHERE, later: vec![false] };
+            let (crank_ends, later) = (Vec::new(), vec![false]);
+            let gas = Gas { cycles, cycle_of, crank_ends, crankcase: ATMOSPHERE, later };
             let strokes = gas.cycles[0].strokes();
             bare.firing_as("", strokes).unwrap().with_gas(gas).unwrap()
         };

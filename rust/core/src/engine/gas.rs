@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::faces::CrankEnd;
 use super::layout::Strokes;
 use super::{CrankIndex, Engine, check_each_cylinder};
 use crate::mechanism::cylinder::piston_area;
@@ -18,6 +19,8 @@ pub struct Gas {
     pub cycles: Vec<Arc<Cycle>>,
     /// Index of each cylinder's cycle; none where pressure never differs from the crankcase's.
     pub cycle_of: Vec<Option<usize>>,
+    /// Of each double-acting piston its crank end; none at all where the list is empty.
+    pub crank_ends: Vec<Option<CrankEnd>>,
     /// Absolute pressure in the crankcase, Pa.
     pub crankcase: f64,
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle.
@@ -37,8 +40,15 @@ impl Engine {
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
         check_each_cylinder("cycle", gas.cycle_of.len(), self.stations.len())?;
         check_each_cylinder("later", gas.later.len(), self.stations.len())?;
+        if !gas.crank_ends.is_empty() {
+            check_each_cylinder("crank_end", gas.crank_ends.len(), self.stations.len())?;
+        }
         limits::not_negative("crankcase", gas.crankcase)?;
-        let firing = gas.cycle_of.iter().any(Option::is_some);
+        let firing = gas.in_use().next().is_some();
+        // One way to say that there is none.
+        let has_crank_ends = gas.crank_ends.iter().any(Option::is_some);
+        let gas =
+            Gas { crank_ends: if has_crank_ends { gas.crank_ends } else { Vec::new() }, ..gas };
         Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
@@ -46,7 +56,8 @@ impl Engine {
     /// turn marked.
     pub fn fired_by(&self, cycle: Arc<Cycle>, later: Vec<bool>) -> Result<Self> {
         let cycle_of = self.details.iter().map(|of| (!of.dummy).then_some(0)).collect();
-        self.with_gas(Gas { cycles: vec![cycle], cycle_of, crankcase: ATMOSPHERE, later })
+        let (cycles, crank_ends) = (vec![cycle], Vec::new());
+        self.with_gas(Gas { cycles, cycle_of, crank_ends, crankcase: ATMOSPHERE, later })
     }
 
     /// Whether a cylinder fires: of an engine with cycles those that have one, without any all but
@@ -70,13 +81,6 @@ impl Engine {
     #[must_use]
     pub fn cycle_of(&self, cylinder: usize) -> Option<usize> {
         self.gas.as_ref()?.cycle_of[cylinder]
-    }
-
-    /// Cycle of a cylinder, from its firing on, and absolute pressure in the crankcase, Pa, where pressure counts.
-    #[must_use]
-    pub fn pressure_of(&self, cylinder: usize) -> Option<(Arc<Cycle>, f64)> {
-        let (gas, cycle) = (self.gas.as_ref()?, self.cycle_of(cylinder)?);
-        Some((Arc::clone(&gas.cycles[cycle]), gas.crankcase))
     }
 
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, where that is
@@ -105,9 +109,14 @@ impl Engine {
     /// as a chamber is smallest that it shares.
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {
+        let delay = self.chamber_delay(cylinder);
+        delay.map_or_else(|| self.firing_tdc(cylinder), |delay| self.phase_after(cylinder, delay))
+    }
+
+    /// Crank angle so much after the firing top dead centre, within a cycle.
+    pub(super) fn phase_after(&self, cylinder: usize, delay: Angle) -> Angle {
         let tdc = self.firing_tdc(cylinder);
-        let begins = |delay| (tdc + delay).reduced_to(self.strokes.turns());
-        self.chamber_delay(cylinder).map_or(tdc, begins)
+        if delay == Angle::ZERO { tdc } else { (tdc + delay).reduced_to(self.strokes.turns()) }
     }
 
     /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
@@ -139,13 +148,20 @@ impl Engine {
     /// The engine; rejects cylinders whose pressure has no torque that is known.
     pub(super) fn with_known_torque(self) -> Result<Self> {
         let Some(gas) = &self.gas else { return Ok(self) };
-        for (i, cycle) in gas.cycle_of.iter().enumerate() {
-            let Some(cycle) = *cycle else { continue };
-            let Some(cycle) = gas.cycles.get(cycle) else {
-                let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
-                return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
-            };
-            self.check_strokes(i, cycle)?;
+        let crank_ends = (0..self.stations.len()).map(|i| gas.crank_end(i).map(|end| end.cycle));
+        for (i, crank_end) in crank_ends.enumerate() {
+            let named = [("cycle_of", gas.cycle_of[i]), ("crank_end", crank_end)];
+            for (name, index) in named {
+                let Some(index) = index else { continue };
+                let Some(cycle) = gas.cycles.get(index) else {
+                    let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
+                    return Err(Error::value(format!("{name}[{i}]"), index, hint));
+                };
+                self.check_strokes(i, cycle)?;
+            }
+            if named.iter().all(|(_, index)| index.is_none()) {
+                continue;
+            }
             if self.details[i].dummy {
                 let hint = "a dummy piston has no gas; give None in its place";
                 return Err(Error::value(format!("cycle[{i}]"), "a cycle", hint));
@@ -154,6 +170,7 @@ impl Engine {
                 let hint = "gas pressure needs the bore of each cylinder, m";
                 return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
             }
+            gas.check_crank_end(&self, i)?;
             self.check_cycle_is_of_main_crank(i, "gas pressure counts")?;
         }
         self.check_shared_pressure(gas)?;

@@ -22,7 +22,23 @@ impl Engine {
         let Some(gas) = self.gas() else { return gas_text(&[], 0) };
         let name = |cycle: &Option<usize>| cycle.map(|k| in_one_line(&gas.cycles[k].given().name));
         let names: Vec<Option<String>> = gas.cycle_of.iter().map(name).collect();
-        gas_text(&names, self.cycles_in_use())
+        let ends = (0..names.len()).map(|i| gas.crank_end(i).map(|end| end.cycle));
+        let ends: Vec<Option<usize>> = ends.collect();
+        if ends.iter().all(Option::is_none) {
+            return gas_text(&names, self.cycles_in_use());
+        }
+        let count =
+            |of: &[Option<usize>]| (0..gas.cycles.len()).filter(|k| of.contains(&Some(*k))).count();
+        let heads = match count(&gas.cycle_of) {
+            0 => "gas at crank ends alone".to_owned(),
+            count => gas_text(&names, count),
+        };
+        if ends == gas.cycle_of {
+            return format!("{heads}; double acting");
+        }
+        let crank_ends: Vec<Option<String>> = ends.iter().map(name).collect();
+        let (words, ends) = (cycles_text(&crank_ends, count(&ends)), which(&crank_ends));
+        format!("{heads}; crank ends{ends}: {words}")
     }
 
     /// The further loads alone, in words; empty where there are none.
@@ -45,7 +61,7 @@ impl Engine {
     #[must_use]
     pub fn cycles_in_use(&self) -> usize {
         let Some(gas) = self.gas() else { return 0 };
-        (0..gas.cycles.len()).filter(|k| gas.cycle_of.contains(&Some(*k))).count()
+        (0..gas.cycles.len()).filter(|k| gas.in_use().any(|index| index == *k)).count()
     }
 
     /// Which cylinders do not fire; empty where all do.
@@ -61,26 +77,41 @@ impl Engine {
 /// cycles.
 #[must_use]
 pub fn gas_text(names: &[Option<String>], count: usize) -> String {
-    let cycles: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
-    if cycles.is_empty() {
+    if names.iter().all(Option::is_none) {
         return "without gas pressure".to_owned();
     }
+    let words = cycles_text(names, count);
+    match dead_text(names.iter().map(Option::is_some)) {
+        dead if dead.is_empty() => format!("gas: {words}"),
+        dead => format!("gas: {words}; {dead}"),
+    }
+}
+
+/// Names of cycles, each once; `count` is that of different ones.
+fn cycles_text(names: &[Option<String>], count: usize) -> String {
     let mut named: Vec<&str> = Vec::new();
-    for name in cycles {
+    for name in names.iter().flatten().map(String::as_str) {
         if !name.is_empty() && !named.contains(&name) {
             named.push(name);
         }
     }
     let list = cut(&named.join(", "), LONGEST_NAMES);
-    let words = match (count > named.len().max(1), named.is_empty()) {
+    match (count > named.len().max(1), named.is_empty()) {
         (true, true) => format!("{count} cycles"),
         (true, false) => format!("{count} cycles, {list}"),
         (false, true) => "unnamed cycle".to_owned(),
         (false, false) => list,
-    };
-    match dead_text(names.iter().map(Option::is_some)) {
-        dead if dead.is_empty() => format!("gas: {words}"),
-        dead => format!("gas: {words}; {dead}"),
+    }
+}
+
+/// ` of cylinders 1, 3`, of those that have a name; empty where all do.
+fn which(names: &[Option<String>]) -> String {
+    let present = (1..).zip(names).filter(|(_, name)| name.is_some());
+    let numbers: Vec<String> = present.map(|(number, _): (usize, _)| number.to_string()).collect();
+    match &numbers[..] {
+        all if all.len() == names.len() => String::new(),
+        [one] => format!(" of cylinder {one}"),
+        some => format!(" of cylinders {}", cut(&some.join(", "), LONGEST_NUMBERS)),
     }
 }
 

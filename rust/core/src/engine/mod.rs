@@ -6,6 +6,7 @@
 mod banks;
 pub mod chambers;
 pub mod crankpins;
+pub mod faces;
 pub mod file;
 mod firing_order;
 mod gas;
@@ -25,6 +26,7 @@ use serde::{Deserialize, Serialize};
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
 use self::banks::{banks_of_directions, right_bank};
 pub use self::chambers::SharedChamber;
+pub use self::faces::{CrankEnd, Face, FacePressure};
 pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
@@ -82,6 +84,8 @@ pub struct Details {
     pub rod: Option<RodFigures>,
     /// Whether the piston is a dummy, which balances and never has gas.
     pub dummy: bool,
+    /// Whether side rods drive the piston from the far side of its chamber, which then is at its inner face.
+    pub side_rods: bool,
 }
 
 /// A rod of known inertia; its length is that of the cylinder's.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Engine, Shaft, Unbalance};
+use super::{Engine, FacePressure, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Result, Warning};
@@ -97,13 +97,15 @@ pub fn of_gas(engine: &Engine, cancel: &Cancel) -> Result<Vec<Warning>> {
     let Some(gas) = engine.gas() else { return Ok(Vec::new()) };
     let mut found: Vec<Warning> = absolute("crankcase", gas.crankcase).into_iter().collect();
     let mut worked = Vec::new();
-    for (station, cycle) in engine.stations().iter().zip(&gas.cycle_of) {
-        let Some(cycle) = cycle.filter(|&k| !worked.contains(&(k, &station.cylinder))) else {
-            continue;
-        };
-        worked.push((cycle, &station.cylinder));
-        let cycle = &gas.cycles[cycle];
-        found.extend(work(cycle, cycle.imep(&station.cylinder, cancel)?));
+    for (i, station) in engine.stations().iter().enumerate() {
+        for FacePressure { cycle, index, face, delay, .. } in engine.pressures(i) {
+            let one = (index, &station.cylinder, face, delay);
+            if !worked.contains(&one) {
+                let mean = face.sign() * cycle.delayed(delay).imep(&station.cylinder, cancel)?;
+                found.extend(work(&cycle, mean));
+                worked.push(one);
+            }
+        }
     }
     Ok(distinct(found))
 }

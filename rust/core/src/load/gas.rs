@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::engine::FacePressure;
 use crate::engine::layout::Strokes;
 use crate::mechanism::DrivenMechanism;
 use crate::mechanism::harmonics::rod::TorqueHarmonics;
@@ -18,8 +19,8 @@ use crate::source::{
     TorqueAmplitudes, UpTo, is_equal,
 };
 
-/// Torque over piston area and crank radius, Pa, of a cycle of pressure above the piston and an even one
-/// below.
+/// Torque over piston area and crank radius, Pa, of a cycle of pressure above an even one, on the outer face of a
+/// piston; on the inner one the area is below zero.
 #[derive(Debug, Clone)]
 pub(super) struct GasPressure {
     /// On a crank as fast as the main one, whose cycles these are.
@@ -40,6 +41,12 @@ const LEAST_LEFT_OUT: f64 = 1e-3;
 const INTEGRATED: [u32; 2] = [2 * 48, 2 * 192];
 
 impl GasPressure {
+    /// Pressure on a face of a piston.
+    pub fn new(driven: DrivenMechanism, pressure: &FacePressure) -> Self {
+        let &FacePressure { ref cycle, index, crankcase, delay, .. } = pressure;
+        Self { driven, cycle: cycle.delayed(delay), place: index, delay, crankcase }
+    }
+
     /// Torques on the block and on the main crank.
     fn amplitudes(&self, GasTorque { mean, phasors }: GasTorque) -> TorqueAmplitudes {
         let [on_block, _] = self.driven.senses();

@@ -14,7 +14,6 @@ use crate::Complex64;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::DrivenMechanism;
 use crate::mechanism::cylinder::Cylinder;
-use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::kept::Kept;
@@ -124,13 +123,9 @@ impl Scene {
             return loads;
         }
         for i in cylinders.clone() {
-            let pressure = engine.pressure_of(i).zip(engine.cycle_of(i));
-            if let Some((((cycle, crankcase), place), roll)) =
-                pressure.zip(engine.swept_by_radius(i))
-            {
-                let delay = engine.chamber_delay(i).unwrap_or(Angle::ZERO);
-                let cycle = cycle.delayed(delay);
-                let gas = GasPressure { driven: driven(i), cycle, place, delay, crankcase };
+            for pressure in engine.pressures(i) {
+                let roll = pressure.area * engine.stations()[i].cylinder.crank_radius();
+                let gas = GasPressure::new(driven(i), &pressure);
                 let mut place = along_bore(i);
                 if gas.parts().repeats == Repeats::EveryTwoTurns {
                     place.phase = engine.firing_tdc(i).half();

@@ -152,6 +152,7 @@ pub(crate) fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
     let gas = Gas {
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
         cycle_of: cycle_of.to_vec(),
+        crank_ends: Vec::new(),
         crankcase: 1e5,
         later: vec![false, true, false],
     };

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::mechanism::Mechanism;
 use crate::mechanism::cylinder::{Cylinder, piston_area};
 use crate::mechanism::motion::CrankPosition;
-use crate::numbers::angle::cis_degrees;
+use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::chebyshev::{largest_of_last, points};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -19,15 +19,101 @@ pub(super) const RESOLVED: f64 = 2e-14;
 /// Narrowest panel, degrees: a curve that still bends there is followed no closer.
 pub(crate) const NARROWEST: f64 = 1e-4;
 
+/// An end of a piston.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Face {
+    /// At the head end: pressure pushes towards the crank, and angles are counted from top dead centre.
+    Outer,
+    /// At the crank end: pressure pushes away from the crank, and angles are counted from where the piston is lowest.
+    Inner,
+}
+
+impl Face {
+    /// Sign of the force towards the crank.
+    #[must_use]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::Outer => 1.0,
+            Self::Inner => -1.0,
+        }
+    }
+
+    /// Angle from top dead centre to where its chamber is smallest without pin offset.
+    pub(crate) const fn dead_centre(self) -> Angle {
+        match self {
+            Self::Outer => Angle::ZERO,
+            Self::Inner => Angle::HALF_TURN,
+        }
+    }
+
+    /// Place of the piston's turning point where its chamber is smallest, of highest and lowest.
+    pub(crate) const fn turning_point(self) -> usize {
+        match self {
+            Self::Outer => 0,
+            Self::Inner => 1,
+        }
+    }
+}
+
+/// How much of its stroke a piston leaves a chamber at one of its ends, as its crank turns.
+#[derive(Debug, Clone)]
+pub struct Swept {
+    mechanism: Arc<dyn Mechanism>,
+    /// Angle of the crank past top dead centre at which angles are zero, degrees.
+    origin: f64,
+    /// Position of the piston where the chamber is smallest, and its travel to the other end, below zero towards the
+    /// crank, crank radii.
+    smallest: f64,
+    travel: f64,
+    /// Angles at which the chamber is smallest and largest, degrees.
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+}
+
+impl Swept {
+    /// At an end of a cylinder's piston.
+    #[must_use]
+    pub fn new(cylinder: &Cylinder, face: Face) -> Self {
+        let mechanism = cylinder.mechanism();
+        let travel = cylinder.travel() / cylinder.crank_radius();
+        let [highest, lowest] = cylinder.turning_points_deg();
+        let (origin, travel, top, bottom) = match face {
+            Face::Outer => (0.0, -travel, highest, lowest),
+            Face::Inner => (lowest, travel, 0.0, highest + 360.0 - lowest),
+        };
+        let smallest = position(&*mechanism, top + origin);
+        Self { mechanism, origin, smallest, travel, top, bottom }
+    }
+
+    /// Volume that the piston leaves, over that of its stroke, at an angle, degrees.
+    #[must_use]
+    pub fn at(&self, angle: f64) -> f64 {
+        (position(&*self.mechanism, angle + self.origin) - self.smallest) / self.travel
+    }
+
+    /// Rounding of what it leaves: a few units of the last place of positions.
+    fn rounding(&self) -> f64 {
+        16.0 * f64::EPSILON * (self.smallest / self.travel).abs()
+    }
+
+    /// Angle at which it leaves a volume: as that grows, or as it shrinks.
+    pub(super) fn angle_of(&self, swept: f64, growing: bool) -> f64 {
+        let (mut less, mut more) =
+            if growing { (self.top, self.bottom) } else { (self.top + 360.0, self.bottom) };
+        for _ in 0..100 {
+            let middle = 0.5 * (less + more);
+            if self.at(middle) < swept { less = middle } else { more = middle }
+        }
+        0.5 * (less + more)
+    }
+}
+
 /// Combustion chamber over a piston.
 #[derive(Debug, Clone)]
 pub struct Chamber {
-    mechanism: Arc<dyn Mechanism>,
+    swept: Swept,
     /// Travel of the piston, m.
     pub(super) stroke: f64,
-    /// The same, and the position of the piston at its highest point, crank radii.
-    travel: f64,
-    highest: f64,
     /// m.
     pub(super) bore: f64,
     /// Ratio of largest to smallest volume.
@@ -48,19 +134,9 @@ impl Chamber {
     ) -> Result<Self> {
         limits::length("bore", bore)?;
         within("compression_ratio", compression_ratio, 1.001, 1000.0)?;
-        let (mechanism, stroke) = (cylinder.mechanism(), cylinder.travel());
-        let [top, bottom] = cylinder.turning_points_deg();
-        Ok(Self {
-            stroke,
-            travel: stroke / cylinder.crank_radius(),
-            highest: position(&*mechanism, top),
-            mechanism,
-            bore,
-            compression_ratio,
-            top,
-            bottom,
-            strokes,
-        })
+        let swept = Swept::new(cylinder, Face::Outer);
+        let (stroke, top, bottom) = (cylinder.travel(), swept.top, swept.bottom);
+        Ok(Self { swept, stroke, bore, compression_ratio, top, bottom, strokes })
     }
 
     /// Piston area, m².
@@ -71,8 +147,7 @@ impl Chamber {
     /// Volume at a crank angle, degrees, over the clearance volume.
     #[must_use]
     pub fn ratio(&self, angle: f64) -> f64 {
-        let down = self.highest - position(&*self.mechanism, angle);
-        1.0 + (self.compression_ratio - 1.0) * down / self.travel
+        1.0 + (self.compression_ratio - 1.0) * self.swept.at(angle)
     }
 
     /// Clearance volume, m³.
@@ -82,12 +157,7 @@ impl Chamber {
 
     /// Angle between the piston's highest and lowest point at which the volume is `ratio` clearances.
     pub(super) fn angle_of(&self, ratio: f64) -> f64 {
-        let (mut low, mut high) = (self.top, self.bottom);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if self.ratio(middle) < ratio { low = middle } else { high = middle }
-        }
-        0.5 * (low + high)
+        self.swept.angle_of((ratio - 1.0) / (self.compression_ratio - 1.0), true)
     }
 }
 
@@ -107,10 +177,21 @@ pub(super) struct Curves {
 impl Curves {
     /// Append a smooth curve, its panels halved until its polynomials are exact to rounding.
     pub fn add(&mut self, from: f64, to: f64, of: impl Fn(f64) -> f64) -> Result<()> {
+        self.add_within(RESOLVED, from, to, of)
+    }
+
+    /// The same to within a part of its largest value.
+    fn add_within(
+        &mut self,
+        tolerance: f64,
+        from: f64,
+        to: f64,
+        of: impl Fn(f64) -> f64,
+    ) -> Result<()> {
         let mut parts = vec![(from, to)];
         while let Some((low, high)) = parts.pop() {
             let values: Vec<f64> = points(low, high, DEGREE).map(&of).collect();
-            if high - low < NARROWEST || is_resolved(&values) {
+            if high - low < NARROWEST || is_resolved_within(tolerance, &values) {
                 self.panel(low, high, &values)?;
             } else {
                 let middle = 0.5 * (low + high);
@@ -144,8 +225,12 @@ impl Curves {
 
 /// Whether the polynomial through values at Chebyshev points has converged.
 pub(super) fn is_resolved(values: &[f64]) -> bool {
+    is_resolved_within(RESOLVED, values)
+}
+
+fn is_resolved_within(tolerance: f64, values: &[f64]) -> bool {
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    largest_of_last(values) <= RESOLVED * largest
+    largest_of_last(values) <= tolerance * largest
 }
 
 /// Polytropic compression and expansion with ideal combustion at constant volume and pressure.
@@ -198,6 +283,74 @@ impl Ideal {
         }
         curves.add(bottom + (period - 360.0), top + period, compressed)?;
         curves.cycle(name, chamber.strokes)
+    }
+}
+
+/// A cycle of a compressor with ideal valves, one in each turn: polytropic expansion of what the clearance keeps,
+/// suction, polytropic compression, discharge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compressor {
+    /// Absolute pressure at which gas enters, Pa.
+    pub suction: f64,
+    /// Absolute pressure at which it leaves, Pa; none of an end that is unloaded, at suction pressure throughout.
+    pub discharge: Option<f64>,
+    /// Volume that is left where the chamber is smallest, over that of the stroke.
+    pub clearance: f64,
+    /// Exponent of compression: p·Vⁿ is constant.
+    pub n: f64,
+    /// Exponent of expansion.
+    pub expansion_n: f64,
+}
+
+impl Compressor {
+    /// The cycle at an end of a piston; valves open where the pressures are equal, to rounding.
+    pub fn cycle(&self, swept: &Swept, name: String) -> Result<Cycle> {
+        let suction = absolute("suction", self.suction)?;
+        let discharge = self.discharge.map_or(Ok(suction), |p| absolute("discharge", p))?;
+        let clearance = within("clearance", self.clearance, 0.0, 10.0)?;
+        exponent("n", self.n)?;
+        exponent("expansion_n", self.expansion_n)?;
+        if discharge < suction {
+            let hint = format!("give at least suction, {suction:?}");
+            return Err(Error::figure("discharge", discharge, hint));
+        }
+        let ratio = discharge / suction;
+        let [expansion, compression] = [self.expansion_n, self.n];
+        // Parts of the stroke at which the suction valve opens, and the discharge valve.
+        let enters = clearance * (ratio.powf(1.0 / expansion) - 1.0);
+        let leaves = (1.0 + clearance) * ratio.powf(-1.0 / compression) - clearance;
+        if enters > 1.0 || leaves < 0.0 {
+            let most = |n: f64| 1.0 / (ratio.powf(1.0 / n) - 1.0);
+            let hint = format!(
+                "the valves never open: at this ratio of pressures give at most {:.6}",
+                most(expansion).min(most(compression))
+            );
+            return Err(Error::figure("clearance", clearance, hint));
+        }
+        // A volume is the difference of two positions, of which it has the rounding.
+        let resolved = |least: f64| RESOLVED.max(swept.rounding() / least);
+        let mut curves = Curves::default();
+        let (opens, bottom, end) = (swept.angle_of(enters, true), swept.bottom, swept.top + 360.0);
+        let closes = if leaves < 1.0 { swept.angle_of(leaves, false) } else { bottom };
+        if enters > 0.0 {
+            curves.add_within(resolved(clearance), swept.top, opens, |angle| {
+                let volume = clearance + swept.at(angle).max(0.0);
+                (discharge * (clearance / volume).powf(expansion)).clamp(suction, discharge)
+            })?;
+        }
+        let opens = if enters > 0.0 { opens } else { swept.top };
+        if opens < bottom {
+            curves.add(opens, bottom, |_| suction)?;
+        }
+        if closes > bottom {
+            curves.add_within(resolved(clearance + leaves), bottom, closes, |angle| {
+                let volume = clearance + swept.at(angle);
+                let pressure = suction * ((1.0 + clearance) / volume).powf(compression);
+                pressure.clamp(suction, discharge)
+            })?;
+        }
+        curves.add(closes, end, |_| discharge)?;
+        curves.cycle(name, Strokes::Two)
     }
 }
 

@@ -3,12 +3,13 @@
 use std::sync::{Arc, LazyLock, Mutex};
 
 use super::Strokes;
+use super::chamber::Face;
 use super::{ATMOSPHERE, Cycle, period_deg};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
 use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::motion::{CrankPosition, Cranks, MotionColumns};
-use crate::numbers::angle::cis_degrees;
+use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{jet, jets, values};
 use crate::numbers::error::Result;
@@ -216,6 +217,21 @@ impl Cycle {
         let torque = self.torque_of(&cylinder.mechanism(), ATMOSPHERE, &[], cancel)?;
         let travel = cylinder.travel() / cylinder.crank_radius();
         Ok(torque.mean * period_deg(self.strokes).to_radians() / travel)
+    }
+
+    /// The same at an end of the piston, from where its chamber is smallest on.
+    pub fn imep_at(
+        self: &Arc<Self>,
+        face: Face,
+        cylinder: &Cylinder,
+        cancel: &Cancel,
+    ) -> Result<f64> {
+        let [_, lowest] = cylinder.turning_points_deg();
+        let delay = match face {
+            Face::Outer => Angle::ZERO,
+            Face::Inner => Angle::from_degrees(lowest)?,
+        };
+        Ok(face.sign() * self.delayed(delay).imep(cylinder, cancel)?)
     }
 
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above

@@ -1,5 +1,7 @@
+use super::chamber::{Compressor, Face, Swept};
 use super::*;
 use crate::Complex64;
+use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::motion::CrankPosition;
 use crate::mechanism::{Mechanism, with_ratios};
 use crate::numbers::cancel::Cancel;
@@ -308,4 +310,84 @@ fn every_table_of_sixteen_points_has_two_halves() {
     assert!(few.thinned(true).is_some());
     let fewer = table((0..14).map(|k| 720.0 / 14.0 * f64::from(k)), smooth, 4).unwrap();
     assert!(fewer.thinned(false).is_none());
+}
+
+#[test]
+fn a_compressor_does_the_work_of_its_polytropes_at_either_end() {
+    let [suction, discharge] = [1e5, 4e5];
+    let ratio: f64 = discharge / suction;
+    for (n, offset) in [(1.3, 0.0), (1.0, 0.004), (1.4, -0.004)] {
+        let cylinder = Cylinder::new(0.05, 0.15, 1.0, offset).unwrap();
+        let [highest, lowest] = cylinder.turning_points_deg();
+        for clearance in [0.0, 1e-12, 1e-4, 0.1, 0.3] {
+            for face in [Face::Outer, Face::Inner] {
+                let compressor = Compressor {
+                    suction,
+                    discharge: Some(discharge),
+                    clearance,
+                    n,
+                    expansion_n: n,
+                };
+                let swept = Swept::new(&cylinder, face);
+                let cycle = Arc::new(compressor.cycle(&swept, String::new()).unwrap());
+                let drawn_in = 1.0 - clearance * (ratio.powf(1.0 / n) - 1.0);
+                let polytropic = match n {
+                    1.0 => ratio.ln(),
+                    n => n / (n - 1.0) * (ratio.powf((n - 1.0) / n) - 1.0),
+                };
+                let expected = -suction * drawn_in * polytropic;
+                let found = cycle.imep_at(face, &cylinder, &Cancel::new()).unwrap();
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-10,
+                    "{n} {offset} {clearance} {face:?} {found} {expected}"
+                );
+                // Where the piston turns it is at the pressure of a valve, before and after.
+                let turns = if face == Face::Outer { highest } else { 0.0 };
+                assert_relative_eq!(
+                    cycle.pressure_beside(turns, turns - 1e-3),
+                    discharge,
+                    max_relative = 1e-9
+                );
+                let bottom = if face == Face::Outer { lowest } else { highest + 360.0 - lowest };
+                assert_relative_eq!(cycle.pressure_deg(bottom), suction, max_relative = 1e-9);
+                // As far as it is resolved, p·Vⁿ is constant between the valves.
+                for angle in (0..360).map(f64::from) {
+                    let (pressure, volume) =
+                        (cycle.pressure_deg(angle), clearance + swept.at(angle));
+                    let is_between = pressure > 1.001 * suction && pressure < 0.999 * discharge;
+                    if is_between && clearance > 1e-6 {
+                        let constant = if swept.at(angle + 1e-3) < swept.at(angle) {
+                            suction * (1.0 + clearance).powf(n)
+                        } else {
+                            discharge * clearance.powf(n)
+                        };
+                        assert_relative_eq!(
+                            pressure * volume.powf(n),
+                            constant,
+                            max_relative = 1e-11_f64.max(1e-14 / clearance)
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn compressors_that_never_open_their_valves_are_rejected_and_unloaded_ends_have_one_pressure() {
+    let cylinder = Cylinder::new(0.05, 0.15, 1.0, 0.0).unwrap();
+    let swept = Swept::new(&cylinder, Face::Inner);
+    let one =
+        Compressor { suction: 1e5, discharge: Some(4e5), clearance: 0.1, n: 1.3, expansion_n: 1.3 };
+    let error = |of: Compressor| of.cycle(&swept, String::new()).unwrap_err().to_string();
+    // 1/(4^(1/1.3) − 1).
+    let closed = error(Compressor { clearance: 0.6, ..one });
+    assert!(closed.contains("at most 0.52497") && closed.starts_with("clearance"), "{closed}");
+    assert!(error(Compressor { discharge: Some(9e4), ..one }).starts_with("discharge"));
+    assert!(error(Compressor { clearance: -0.1, ..one }).starts_with("clearance"));
+    assert!(error(Compressor { suction: 0.0, ..one }).starts_with("suction"));
+    for discharge in [None, Some(1e5)] {
+        let idle = Compressor { discharge, ..one }.cycle(&swept, String::new()).unwrap();
+        assert!((0..360).all(|k| (idle.pressure_deg(f64::from(k)) - 1e5).abs() < 1e-9));
+    }
 }

@@ -123,7 +123,9 @@ pub fn far_peak(theta_deg: &[f64], values: &[f64], period_deg: f64) -> Option<f6
 #[must_use]
 pub fn work(cycle: &Cycle, mean_effective: f64) -> Option<Warning> {
     let given = cycle.given();
+    // The angles of a computed cycle are right, as of a compressor's.
     let strong = mean_effective < STRONGEST_BRAKE
+        && given.degree.is_none()
         && far_peak(&given.theta_deg, &given.pressure, period_deg(cycle.strokes())).is_none();
     let text = format!(
         "imep = {} bar: pressure brakes the crank. Are angles counted in the direction of rotation, from \

@@ -9,7 +9,7 @@ use super::flywheel::SLOWEST;
 use super::page::{self, MotionRows, PageTerms};
 use super::rows::RodRatios;
 use crate::engine::layout::Strokes;
-use crate::engine::{Engine, Unbalance};
+use crate::engine::{Engine, FacePressure, Unbalance};
 use crate::firing::Firing;
 use crate::load::Scene;
 use crate::mechanism::cylinder::Cylinder;
@@ -110,6 +110,18 @@ pub struct DrawnCylinder {
     cycle: Option<usize>,
     #[serde(flatten)]
     pressure: Option<DrawnPressure>,
+    /// At the crank end of a double-acting piston.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    crank_end: Option<DrawnCrankEnd>,
+}
+
+/// Pressure at a crank end, in place of that of its cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnCrankEnd {
+    /// Place of its cycle among those that differ.
+    cycle: usize,
+    #[serde(flatten)]
+    pressure: DrawnPressure,
 }
 
 /// How pressure acts in a cylinder.
@@ -117,7 +129,7 @@ pub struct DrawnCylinder {
 pub struct DrawnPressure {
     /// Crank angle at which its cycle begins.
     pressure_deg: f64,
-    /// Volume that the piston sweeps over a crank radius, m³.
+    /// Volume that the piston sweeps over a crank radius, below zero at its inner face, m³.
     swept: f64,
     /// Sense of its crank: on one that turns the other way the torque on the block is the mirror's.
     roll: i32,
@@ -224,13 +236,19 @@ fn cylinders(engine: &Engine, motion_of: &[usize]) -> Vec<DrawnCylinder> {
     let drawn = |i: usize| {
         let (station, crank) = (&engine.stations()[i], engine.crank_of(i));
         let (parts, bank) = (&station.cylinder, engine.bank_of(i));
-        let cycle = engine.pressure_of(i).map(|(cycle, _)| cycle);
         let ratio = engine.cranks()[crank].ratio;
-        let pressure = |swept| DrawnPressure {
-            pressure_deg: engine.firing_phase(i).degrees(),
-            swept,
+        let drawn_pressure = |pressure: &FacePressure| DrawnPressure {
+            pressure_deg: pressure.phase.degrees(),
+            swept: pressure.area * parts.crank_radius(),
             roll: ratio.sense(),
         };
+        let pressures = engine.pressures(i);
+        let own = engine.cycle_of(i).and(pressures.first());
+        let crank_end = pressures.get(usize::from(own.is_some()));
+        let place = |pressure: &FacePressure| cycles.iter().position(|c| *c == pressure.cycle);
+        let crank_end = crank_end.and_then(|end| {
+            Some(DrawnCrankEnd { cycle: place(end)?, pressure: drawn_pressure(end) })
+        });
         DrawnCylinder {
             number: i + 1,
             fires_as: engine.fires_as(i) + 1,
@@ -244,8 +262,9 @@ fn cylinders(engine: &Engine, motion_of: &[usize]) -> Vec<DrawnCylinder> {
             bank_deg: station.bank.degrees(),
             z: station.z,
             motion: motion_of[i],
-            pressure: cycle.as_ref().and(engine.swept_by_radius(i)).map(pressure),
-            cycle: cycle.and_then(|cycle| cycles.iter().position(|known| *known == cycle)),
+            pressure: own.map(drawn_pressure),
+            cycle: own.and_then(place),
+            crank_end,
         }
     };
     (0..engine.stations().len()).map(drawn).collect()
@@ -273,11 +292,9 @@ fn turns(engine: &Engine, cancel: &Cancel) -> Result<u32> {
 /// Cycles that differ, in the order in which cylinders have them.
 fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
     let mut cycles = Vec::new();
-    for i in 0..engine.stations().len() {
-        if let Some((cycle, _)) = engine.pressure_of(i)
-            && !cycles.contains(&cycle)
-        {
-            cycles.push(cycle);
+    for pressure in (0..engine.stations().len()).flat_map(|i| engine.pressures(i)) {
+        if !cycles.contains(&pressure.cycle) {
+            cycles.push(pressure.cycle);
         }
     }
     cycles
@@ -285,7 +302,8 @@ fn cycles(engine: &Engine) -> Vec<Arc<Cycle>> {
 
 /// Pressure in the cylinders of an engine, if it counts.
 fn gas(engine: &Engine) -> Option<DrawnGas> {
-    let (_, crankcase) = (0..engine.stations().len()).find_map(|i| engine.pressure_of(i))?;
+    let crankcase =
+        (0..engine.stations().len()).find_map(|i| Some(engine.pressures(i).first()?.crankcase))?;
     Some(DrawnGas { crankcase, cycles: cycles(engine).iter().map(|c| drawn_cycle(c)).collect() })
 }
 

@@ -307,9 +307,10 @@ pub(super) fn sizes(engine: &Engine, cancel: &Cancel) -> Result<Sizes> {
         found.force += force;
         found.moment += force * (station.z.abs() + reference);
         found.torque += force * (station.cylinder.crank_radius() + x.hypot(y));
-        if let (Some((cycle, _)), Some(swept)) = (engine.pressure_of(i), engine.swept_by_radius(i))
-        {
-            found.gas += cycle.given().pressure.iter().copied().fold(0.0, f64::max) * swept;
+        let radius = station.cylinder.crank_radius();
+        for pressure in engine.pressures(i) {
+            let largest = pressure.cycle.given().pressure.iter().copied().fold(0.0, f64::max);
+            found.gas += largest * pressure.area.abs() * radius;
         }
     }
     Ok(found)

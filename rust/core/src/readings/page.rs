@@ -90,7 +90,7 @@ impl PageTerms {
 }
 
 fn has_pressure(engine: &Engine) -> bool {
-    (0..engine.stations().len()).any(|i| engine.pressure_of(i).is_some())
+    (0..engine.stations().len()).any(|i| engine.has_pressure(i))
 }
 
 /// Terms of the cylinders, or of what no rod moves: of force and moment, and of torque unless a spectrum is given.
@@ -143,7 +143,7 @@ pub struct MotionRows {
 /// Lengths of a cylinder, and whether pressure acts on its piston.
 fn kind(engine: &Engine, cylinder: usize) -> (Cylinder, bool) {
     let lengths = engine.stations()[cylinder].cylinder.without_masses();
-    (lengths, engine.pressure_of(cylinder).is_some())
+    (lengths, engine.has_pressure(cylinder))
 }
 
 /// Cylinders whose pistons move in ways that differ, each by the index of its first cylinder, and of each cylinder
@@ -212,7 +212,7 @@ fn motion_tables(
         mechanism.motion(&CrankPosition::new(sin, cos)).position - rod
     };
     let force = mechanism.force(orders, cancel)?;
-    let width = if engine.pressure_of(cylinder).is_some() { 4 } else { 2 };
+    let width = if engine.has_pressure(cylinder) { 4 } else { 2 };
     let mut mean = height(0.0);
     let mut rows = Vec::new();
     for (&n, amplitude) in orders.iter().zip(force) {

@@ -53,6 +53,27 @@ pub struct Extremes {
     pub gas: Array2<f64>,
 }
 
+/// A load, N, and the crank angle at which it is that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// N.
+    pub value: f64,
+    /// Degrees of a cycle.
+    pub theta_deg: f64,
+}
+
+impl Peak {
+    /// Replace the least and the largest by one that is beyond either, by more than rounding.
+    fn meet([least, most]: &mut [Self; 2], one: Self, rounding: f64) {
+        if one.value < least.value - rounding {
+            *least = one;
+        }
+        if one.value > most.value + rounding {
+            *most = one;
+        }
+    }
+}
+
 /// Part of a cycle on which some loads are polynomials.
 struct Panel<const N: usize> {
     low: f64,
@@ -287,61 +308,116 @@ impl BearingLoadsModel {
     /// Ranges of crank angles in which each rod is in tension at its wrist pin, [from, to] in degrees
     /// of a cycle; [0, cycle] where it always is.
     pub fn tension(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Vec<Vec<[f64; 2]>>> {
-        let cycle = f64::from(cycle_deg);
         pool::map(cancel, self.rods.iter().collect(), |rod| {
-            let edges = edges(rod.edges_deg(), cycle, cancel)?;
-            let of = |theta, beside| of_rod(rod, theta, beside);
-            let sampled = LoadCurves { edges: &edges, of, cancel }.sampled()?;
-            // Less than rounding is none.
-            let rounding = LOAD_ROUNDING * rod.terms(sampled[0][1].sqrt());
-            let compression = RodLoad::Compression as usize;
-            let of = |theta, beside| [of_rod(rod, theta, beside)[compression]];
-            let curves = LoadCurves { edges: &edges, of, cancel };
-            let tolerance = (LOAD_RESOLVED * largest(sampled[compression])).max(rounding);
-            let starts = (curves.of)(0.0, f64::midpoint(edges[0], edges[1]))[0] < -rounding;
-            let (mut last, mut changes) = (starts, Vec::new());
-            curves.visit(|panel, is_narrow| {
-                let [low, high, middle] = panel.places();
-                let [values] = &panel.values;
-                let [least, most] = reach(values);
-                let changes_sign = least < -rounding && most >= -rounding;
-                if changes_sign && !is_narrow && largest_of_last(values) > tolerance {
-                    return Ok(false);
-                }
-                let turning = changes_sign.then(|| turning_points(values)).into_iter().flatten();
-                let turning = turning.map(|[x, value]| (middle + 0.5 * x * (high - low), value));
-                let mut all: Vec<_> =
-                    points(low, high, LOAD_DEGREE).zip(*values).chain(turning).collect();
-                all.sort_unstable_by(|one, other| f64::total_cmp(&one.0, &other.0));
-                let mut from = low;
-                for (theta, value) in all {
-                    let here = value < -rounding;
-                    if here != last {
-                        let (mut before, mut after) = (from, theta);
-                        // Halving a panel so often reaches the last place of 720.
-                        for _ in 0..48 {
-                            let between = f64::midpoint(before, after);
-                            let same = ((curves.of)(between, middle)[0] < -rounding) == here;
-                            *(if same { &mut after } else { &mut before }) = between;
-                        }
-                        memory::push(&mut changes, after)?;
-                    }
-                    (from, last) = (theta, here);
-                }
-                Ok(true)
-            })?;
-            if last != starts {
-                changes.push(cycle);
-            }
-            if starts {
-                // The range that is cut by the start of the cycle is counted from where it begins.
-                let first = if changes.is_empty() { cycle } else { changes.remove(0) };
-                let from = changes.pop().map_or(0.0, |from| from - cycle);
-                changes.splice(0..0, [from, first]);
-            }
-            Ok(changes.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect())
+            let compression = |theta, beside| rod.forces_beside(theta, beside).compression;
+            below_zero(rod, compression, f64::from(cycle_deg), cancel)
         })
     }
+}
+
+/// Ranges of crank angles in which a load of a rod is below zero, [from, to] in degrees of a cycle.
+pub(super) fn below_zero(
+    rod: &DrivenRod,
+    of: impl Fn(f64, f64) -> f64,
+    cycle: f64,
+    cancel: &Cancel,
+) -> Result<Vec<[f64; 2]>> {
+    let edges = edges(rod.edges_deg(), cycle, cancel)?;
+    // Less than rounding is none.
+    let rounding = rounding_of(rod, &edges, cancel)?;
+    let curves = LoadCurves { edges: &edges, of: |theta, beside| [of(theta, beside)], cancel };
+    let tolerance = (LOAD_RESOLVED * largest(curves.sampled()?[0])).max(rounding);
+    let starts = (curves.of)(0.0, f64::midpoint(edges[0], edges[1]))[0] < -rounding;
+    let (mut last, mut changes) = (starts, Vec::new());
+    curves.visit(|panel, is_narrow| {
+        let [low, high, middle] = panel.places();
+        let [values] = &panel.values;
+        let [least, most] = reach(values);
+        let changes_sign = least < -rounding && most >= -rounding;
+        if changes_sign && !is_narrow && largest_of_last(values) > tolerance {
+            return Ok(false);
+        }
+        let turning = changes_sign.then(|| turning_points(values)).into_iter().flatten();
+        let turning = turning.map(|[x, value]| (middle + 0.5 * x * (high - low), value));
+        let mut all: Vec<_> = points(low, high, LOAD_DEGREE).zip(*values).chain(turning).collect();
+        all.sort_unstable_by(|one, other| f64::total_cmp(&one.0, &other.0));
+        let mut from = low;
+        for (theta, value) in all {
+            let here = value < -rounding;
+            if here != last {
+                let (mut before, mut after) = (from, theta);
+                // Halving a panel so often reaches the last place of 720.
+                for _ in 0..48 {
+                    let between = f64::midpoint(before, after);
+                    let same = ((curves.of)(between, middle)[0] < -rounding) == here;
+                    *(if same { &mut after } else { &mut before }) = between;
+                }
+                memory::push(&mut changes, after)?;
+            }
+            (from, last) = (theta, here);
+        }
+        Ok(true)
+    })?;
+    if last != starts {
+        changes.push(cycle);
+    }
+    if starts {
+        // The range that is cut by the start of the cycle is counted from where it begins.
+        let first = if changes.is_empty() { cycle } else { changes.remove(0) };
+        let from = changes.pop().map_or(0.0, |from| from - cycle);
+        changes.splice(0..0, [from, first]);
+    }
+    Ok(changes.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect())
+}
+
+/// Rounding of the loads of a rod, N.
+fn rounding_of(rod: &DrivenRod, edges: &[f64], cancel: &Cancel) -> Result<f64> {
+    let on_crankpin = |theta, beside| {
+        let [x, y] = rod.forces_beside(theta, beside).crankpin;
+        [x.hypot(y)]
+    };
+    let [[_, most]] = LoadCurves { edges, of: on_crankpin, cancel }.sampled()?;
+    Ok(LOAD_ROUNDING * rod.terms(most))
+}
+
+/// Least and largest loads of a rod over a cycle, degrees, each with the crank angle: the first of equal ones.
+pub(super) fn peaks<const N: usize>(
+    rod: &DrivenRod,
+    of: impl Fn(f64, f64) -> [f64; N],
+    cycle: f64,
+    cancel: &Cancel,
+) -> Result<[[Peak; 2]; N]> {
+    let edges = edges(rod.edges_deg(), cycle, cancel)?;
+    let rounding = rounding_of(rod, &edges, cancel)?;
+    let curves = LoadCurves { edges: &edges, of, cancel };
+    let tolerances = curves.sampled()?.map(|range| (LOAD_RESOLVED * largest(range)).max(rounding));
+    let none = |value| Peak { value, theta_deg: 0.0 };
+    let mut peaks = [[none(f64::INFINITY), none(f64::NEG_INFINITY)]; N];
+    curves.visit(|panel, is_narrow| {
+        let mut is_settled = true;
+        let places: Vec<f64> = points(panel.low, panel.high, LOAD_DEGREE).collect();
+        for ((peaks, values), tolerance) in peaks.iter_mut().zip(&panel.values).zip(tolerances) {
+            for (&theta_deg, &value) in places.iter().zip(values) {
+                Peak::meet(peaks, Peak { value, theta_deg }, tolerance);
+            }
+            let [low, high] = reach(values);
+            let [least, most] = &peaks;
+            if least.value <= low && high <= most.value {
+                continue;
+            }
+            if is_narrow || largest_of_last(values) <= tolerance {
+                for [x, value] in turning_points(values) {
+                    let half = 0.5 * (panel.high - panel.low);
+                    let theta_deg = f64::midpoint(panel.low, panel.high) + half * x;
+                    Peak::meet(peaks, Peak { value, theta_deg }, tolerance);
+                }
+            } else {
+                is_settled = false;
+            }
+        }
+        Ok(is_settled)
+    })?;
+    Ok(peaks)
 }
 
 fn rows(ranges: impl ExactSizeIterator<Item = [f64; 2]>) -> Result<Array2<f64>> {

@@ -7,6 +7,7 @@
 
 mod extremes;
 mod rod;
+mod rod_loads;
 mod sections;
 
 use std::ops::Range;
@@ -16,6 +17,7 @@ use ndarray::{Array2, Array3, ArrayViewMut, Axis, Dimension};
 pub use self::extremes::Extremes;
 pub use self::rod::TurningAxes;
 use self::rod::{DrivenRod, RodColumns};
+pub use self::rod_loads::{Peak, RodLoads};
 pub use self::sections::{CutPart, Sections};
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine};

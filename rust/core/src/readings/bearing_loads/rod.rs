@@ -16,8 +16,7 @@
 use std::sync::Arc;
 
 use crate::Complex64;
-use crate::engine::CrankIndex;
-use crate::engine::Engine;
+use crate::engine::{CrankIndex, Engine, FacePressure};
 use crate::load::Place;
 use crate::mechanism::Mechanism;
 use crate::mechanism::motion::{CrankPosition, Motion, MotionColumns};
@@ -25,7 +24,6 @@ use crate::numbers::angle::cis_degrees;
 use crate::numbers::error::Result;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
-use crate::pressure::Cycle;
 use crate::source::over_angle::{AngleColumn, BLOCK, Units};
 
 /// Axes that turn.
@@ -55,19 +53,15 @@ pub(super) struct DrivenRod {
     pub rotating: f64,
     /// J·ω²/l, N.
     couple: f64,
-    /// Pressure on the piston, where it counts.
-    gas: Option<PistonGas>,
+    /// Pressures on the faces of the piston.
+    gas: Vec<FaceForce>,
 }
 
-/// Pressure on a piston.
-struct PistonGas {
-    cycle: Arc<Cycle>,
-    /// Crank angle of the firing top dead centre, degrees.
+/// Pressure on a face of a piston.
+struct FaceForce {
+    pressure: FacePressure,
+    /// Crank angle at which its cycle begins, degrees.
     phase: f64,
-    /// Absolute, Pa.
-    crankcase: f64,
-    /// m².
-    area: f64,
 }
 
 /// Forces of one cylinder; vectors along u and w.
@@ -89,20 +83,15 @@ pub(super) struct RodColumns {
     pub gas: AngleColumn,
 }
 
-impl PistonGas {
-    /// Of a cylinder of an engine.
-    fn of(engine: &Engine, cylinder: usize) -> Option<Self> {
-        let (cycle, crankcase) = engine.pressure_of(cylinder)?;
-        let radius = engine.stations()[cylinder].cylinder.crank_radius();
-        let area = engine.swept_by_radius(cylinder)? / radius;
-        let phase = engine.firing_phase(cylinder).degrees();
-        Some(Self { cycle, phase, crankcase, area })
+impl FaceForce {
+    fn of(pressure: FacePressure) -> Self {
+        Self { phase: pressure.phase.degrees(), pressure }
     }
 
     /// Force on the piston towards the crank, N, by the polynomial that counts at another angle.
     fn force(&self, theta_deg: f64, at: f64) -> f64 {
-        let pressure = self.cycle.pressure_beside(theta_deg - self.phase, at - self.phase);
-        self.area * (pressure - self.crankcase)
+        let Self { pressure: FacePressure { cycle, area, crankcase, .. }, phase } = self;
+        area * (cycle.pressure_beside(theta_deg - phase, at - phase) - crankcase)
     }
 }
 
@@ -132,14 +121,14 @@ impl DrivenRod {
             piston: piston * square,
             rotating: rotating * square,
             couple: cylinder.rod_inertia_excess() * square / length,
-            gas: PistonGas::of(engine, i),
+            gas: engine.pressures(i).into_iter().map(FaceForce::of).collect(),
         })
     }
 
     /// Forces at a crank angle, degrees, where pressure has the polynomial that counts at another angle.
     pub fn forces_beside(&self, theta_deg: f64, at: f64) -> RodForces {
         let unit = cis_degrees(theta_deg * self.ratio.size()) * self.phase;
-        let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg, at));
+        let gas = self.gas.iter().fold(0.0, |sum, gas| sum + gas.force(theta_deg, at));
         let crank = CrankPosition::new(unit.im, unit.re);
         let Motion { acceleration, slope, secant, .. } = self.mechanism.motion(&crank);
         let swing = self.mechanism.swing(&crank).acceleration;
@@ -170,14 +159,16 @@ impl DrivenRod {
         // In two turns of the main crank.
         let leaning = (0..2 * self.ratio.halves_of_speed()).map(quarter);
         let gas = self.gas.iter();
-        gas.flat_map(|gas| gas.cycle.edges_deg().iter().map(move |edge| edge + gas.phase))
+        gas.flat_map(|gas| gas.pressure.cycle.edges_deg().iter().map(|edge| edge + gas.phase))
             .chain(leaning)
     }
 
     /// Size of what forces are sums and differences of, by the largest force on the crankpin, N.
     pub fn terms(&self, on_crankpin: f64) -> f64 {
-        let pressure = |gas: &PistonGas| gas.area * (gas.crankcase + gas.cycle.largest());
-        self.size() + on_crankpin + self.gas.as_ref().map_or(0.0, pressure)
+        let size = |FaceForce { pressure, .. }: &FaceForce| {
+            pressure.area.abs() * (pressure.crankcase + pressure.cycle.largest())
+        };
+        self.size() + on_crankpin + self.gas.iter().map(size).sum::<f64>()
     }
 
     /// At an acceleration of the piston, slope and secant of its rod, and an acceleration of the rod's angle.
@@ -235,9 +226,10 @@ impl RodColumns {
 
     /// Gas forces at crank angles of a block, degrees.
     pub fn set_gas(&mut self, rod: &DrivenRod, theta_deg: &[f64]) {
-        if let Some(gas) = &rod.gas {
+        for (k, gas) in rod.gas.iter().enumerate() {
             for (value, &theta) in self.gas.iter_mut().zip(theta_deg) {
-                *value = gas.force(theta, theta);
+                let others = if k == 0 { 0.0 } else { *value };
+                *value = others + gas.force(theta, theta);
             }
         }
     }

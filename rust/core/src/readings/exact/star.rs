@@ -11,7 +11,7 @@ use super::roots::{PartOfTurn, parts_of_turn};
 use super::vanishing::Verdict;
 use super::whole;
 use crate::Complex64;
-use crate::engine::{Engine, Station};
+use crate::engine::{Engine, FacePressure};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -86,20 +86,37 @@ impl Stars {
     /// against the main crank has the opposite sign.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
         let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
-        let fire =
+        let mut fire: Vec<Angle> =
             firing.filter(|_| engine.cycles_in_use() == 0).map_or_else(phases, Firing::phases);
-        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let sizes = |(i, place): (usize, &Station)| {
-            let gear = &place.cylinder;
-            let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            let (cycle, delay) = (engine.cycle_of(i), engine.chamber_delay(i));
-            (sizes, engine.details()[i].bore, cycle, delay, ratio(i).halves().abs())
+        // The faces on which pressure acts: of the cylinders' cycles, then at crank ends.
+        let cylinders = 0..engine.stations().len();
+        let own = |i: usize| {
+            let size = (engine.details()[i].bore, engine.working_face(i));
+            (i, size, engine.cycle_of(i), engine.chamber_delay(i))
         };
-        let (_, groups) = distinct::<usize, _>(engine.stations().iter().enumerate().map(sizes));
-        let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
+        let mut faces: Vec<_> = cylinders.clone().map(own).collect();
+        let mut fires: Vec<bool> = cylinders.clone().map(|i| engine.fires(i)).collect();
+        for i in cylinders {
+            for FacePressure { face, area, index, delay, phase, .. } in engine.pressures(i) {
+                if face != engine.working_face(i) {
+                    fire.push(phase);
+                    fires.push(true);
+                    faces.push((i, (Some(area), face), Some(index), Some(delay)));
+                }
+            }
+        }
+        let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
+        let sizes = |&(i, size, cycle, delay): &(usize, _, _, _)| {
+            let gear = &engine.stations()[i].cylinder;
+            let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
+            (sizes, size, cycle, delay, ratio(i).halves().abs())
+        };
+        let (_, groups) = distinct::<usize, _>(faces.iter().map(sizes));
+        let mirrored =
+            faces.iter().map(|&(i, ..)| engine.stations()[i].cylinder.pin_offset() < 0.0);
         let groups: Vec<_> = groups.into_iter().zip(mirrored).collect();
-        let sense = (0..groups.len()).map(|i| f64::from(ratio(i).sense()));
-        Self::new(fire, sense.collect(), groups, fires(engine), cancel)
+        let sense = faces.iter().map(|&(i, ..)| f64::from(ratio(i).sense())).collect();
+        Self::new(fire, sense, groups, fires, cancel)
     }
 
     /// Whether some cylinders are of different groups.
@@ -164,13 +181,10 @@ impl Stars {
     }
 }
 
-fn fires(engine: &Engine) -> Vec<bool> {
-    (0..engine.stations().len()).map(|i| engine.fires(i)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Station;
     use crate::numbers::error::Error;
 
     fn stars(fire: &[f64], weights: &[f64]) -> Stars {

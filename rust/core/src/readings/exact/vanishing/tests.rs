@@ -90,6 +90,7 @@ fn gas_of_unlike_cylinders_remains_where_it_is_evaluated() {
         let gas = Gas {
             cycles: vec![Arc::new(Cycle::new(given).unwrap())],
             cycle_of: vec![Some(0); 2],
+            crank_ends: Vec::new(),
             crankcase: 1e5,
             later: vec![false; 2],
         };
