@@ -16,13 +16,11 @@ from crankpin.model.crankpins import crankpins
 from crankpin.plot.balance import direction, ellipse
 from crankpin.plot.layout import (
     Drawn,
-    add_figure_legend,
     add_legend,
     axes_or_new,
     inches_of,
     make_panels,
     reject_figure,
-    set_figure_title,
     set_panel_title,
     set_title,
     width_for,
@@ -110,10 +108,8 @@ def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> D
     for panel, name in zip(panels[1:], vectors, strict=True):
         set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
-    set_figure_title(
-        grid.figure, labels.name_of(result.engine), "counterweights, and order 1 over ω²"
-    )
-    add_figure_legend(grid.figure, states)
+    grid.set_title(labels.name_of(result.engine), "counterweights, and order 1 over ω²")
+    grid.add_legend(states)
     return grid.axes
 
 

@@ -20,12 +20,10 @@ from crankpin.model.engine import Engine
 from crankpin.plot.crank import side, star
 from crankpin.plot.layout import (
     Drawn,
-    add_figure_legend,
     add_legend,
     axes_or_new,
     make_panels,
     reject_figure,
-    set_figure_title,
     set_panel_title,
     set_title,
 )
@@ -183,18 +181,17 @@ def all_panels(
     engine: Engine, figure: FigureBase | None, theta: float, style: dict[str, Any]
 ) -> NDArray[Any]:
     """Draw the cross-section and the star beside each other, and the side view below them."""
-    figure, cells, _ = make_panels(None, figure, 2, 2, row_height=0.6, height_ratios=[2.0, 1.1])
+    panels = make_panels(None, figure, 2, 2, row_height=0.6, height_ratios=[2.0, 1.1])
+    cells = panels.axes
     below = cells[1, 0].get_gridspec()[1, :]
     for cell in cells[1]:
         cell.remove()
-    axes = np.array([*cells[0], figure.add_subplot(below)])
+    axes = np.array([*cells[0], panels.figure.add_subplot(below)])
     for ax, (kind, name) in zip(axes, PANEL_NAMES.items(), strict=True):
         panel(engine, ax, kind, theta, **style)
         set_panel_title(ax, name, pad=_above())
-    set_figure_title(
-        figure, labels.name_of(engine), f"θ = {rounded(theta, 6)}°, seen from the flywheel"
-    )
-    add_figure_legend(figure, legend_handles(engine, inks_of(axes[0])))
+    panels.set_title(labels.name_of(engine), f"θ = {rounded(theta, 6)}°, seen from the flywheel")
+    panels.add_legend(legend_handles(engine, inks_of(axes[0])))
     return axes
 
 

@@ -65,7 +65,9 @@ class Panels(NamedTuple):
         if self.single:
             set_title(self.axes[0, 0], *lines)
         else:
-            set_figure_title(self.figure, *lines)
+            size = font_of("figure.titlesize", "medium").get_size()
+            text = self.figure.suptitle("", x=0.012, ha="left", fontsize=size)
+            _write(text, [line for line in lines if line], self.figure)
 
     def name_columns(self, names: Sequence[str]) -> None:
         """Put a name above each column of several panels."""
@@ -76,8 +78,8 @@ class Panels(NamedTuple):
         """Put a legend below all panels: of the handles, or of all series on given axes."""
         if self.single:
             add_legend(self.axes[0, 0], title)
-        else:
-            add_figure_legend(self.figure, handles, title if handles else "")
+        elif handles:
+            _fit(self.figure, (self.figure, "legend"), _Legend(self.figure, handles, title, {}))
 
 
 def draw_kind(
@@ -332,13 +334,6 @@ def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     _write(ax.set_title("", **look), lines, ax)
 
 
-def set_figure_title(figure: FigureBase, *lines: str) -> None:
-    """Put lines above all panels of a figure on the left."""
-    size = font_of("figure.titlesize", "medium").get_size()
-    text = figure.suptitle("", x=0.012, ha="left", fontsize=size)
-    _write(text, [line for line in lines if line], figure)
-
-
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
     _write(ax.xaxis.label, in_units(ax.xaxis, text), ax)
@@ -424,12 +419,6 @@ def add_legend(
     handles.sort(key=lambda handle: handle.get_label() == last)
     if len(handles) >= fewest:
         _fit(ax, (ax, "legend"), _Legend(ax, handles, title, style))
-
-
-def add_figure_legend(figure: FigureBase, handles: Sequence[Any], title: str = "") -> None:
-    """Put a legend below all panels of a figure, in as many columns as fit."""
-    if handles:
-        _fit(figure, (figure, "legend"), _Legend(figure, handles, title, {}))
 
 
 @dataclasses.dataclass

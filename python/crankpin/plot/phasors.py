@@ -19,7 +19,6 @@ from crankpin.analysis.star import StarDiagram
 from crankpin.plot import ticks
 from crankpin.plot.layout import (
     Drawn,
-    add_figure_legend,
     add_legend,
     axes_or_new,
     inches_of,
@@ -29,7 +28,6 @@ from crankpin.plot.layout import (
     make_panels,
     note_zero,
     points_of,
-    set_figure_title,
     set_panel_title,
     set_title,
 )
@@ -94,11 +92,12 @@ def phasors(
     # Square panels, each below its two lines, between the title and the legend.
     inches = len(rows) * (0.8 * width / len(chosen) + 0.4) + 1.1
     row_height = (inches / height - 0.25) / len(rows)
-    figure, axes, _ = make_panels(None, figure, len(rows), len(chosen), row_height=row_height)
+    panels = make_panels(None, figure, len(rows), len(chosen), row_height=row_height)
+    axes = panels.axes
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
     font = FontProperties(size="small")
-    widths = {part: points_of(figure, part, font) for part in {arm.part for arm in arms}}
+    widths = {part: points_of(panels.figure, part, font) for part in {arm.part for arm in arms}}
     aside = crowded = False
     for column, order in enumerate(chosen):
         for row, part in enumerate(rows):
@@ -115,18 +114,16 @@ def phasors(
     label_x(axes[-1, 0], _axis_label(kind, 0))
     for panel in axes[:, 0]:
         label_y(panel, _axis_label(kind, 1))
-    set_figure_title(
-        figure,
+    where = f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0"
+    panels.set_title(
         labels.name_of(result.engine),
-        joined(
-            f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0", loads_of(result, kind)
-        ),
+        joined(where, loads_of(result, kind)),
         "arrows that cover each other are drawn side by side" if aside else "",
         "from the dot on they follow by number, not all named" if crowded else "",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
     handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))
-    add_figure_legend(figure, handles)
+    panels.add_legend(handles)
     return axes
 
 
