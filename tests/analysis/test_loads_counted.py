@@ -62,6 +62,7 @@ RESULTS: dict[str, Any] = {
     "operating map": lambda e: cp.operating_map(e, [1000, 3000]),
     "options": lambda e: cp.balancer_options(e, 3000, by="total.torque.peak", most_shafts=1),
     "excitation": lambda e: cp.torsional_excitation(e, 3000, orders=[1, 2]),
+    "guide moments": lambda e: cp.guide_moments(e, 3000, orders=[1, 2]),
 }
 OF_GAS: dict[str, Any] = {
     "flywheel": lambda e: cp.flywheel(e, 3000, inertia=0.1),
@@ -69,6 +70,13 @@ OF_GAS: dict[str, Any] = {
 }
 
 
+OF_FORCES: dict[str, Any] = {
+    "foundation table": lambda e: cp.foundation_table(e, 3000),
+    "locomotive": lambda e: cp.Locomotive(
+        e.cylinders[0], z=[-0.1, 0.1], throws_deg=[0, 90], wheel_z=[-0.3, 0.3]
+    ).forces(3000),
+}
+"""Results that other loads change, and no pressure."""
 OF_DESIGN: dict[str, Any] = {
     # Gas is left out: their parts are not made yet, or deviations would move the pressure.
     "designs": lambda e: cp.design(
@@ -94,6 +102,7 @@ NOTHING_OF_GAS = {
     "Arrangement", "BalancerOption", "Choice", "Design",  # items of results that say it
     "OrderResponse", "WorstForce",  # parts of a response, which says it
     "Card", "ClosedForm",  # force and moment
+    "FlywheelDisc", "FlywheelRim", "TurningMomentAreas",  # of a torque that is given
     "Exercise", "Explanation",  # sentences, which say it themselves
 }  # fmt: skip
 """Results in tables that no pressure changes."""
@@ -105,7 +114,7 @@ def test_every_result_is_tested() -> None:
     shown = {name for name, kind in kinds.items() if inspect.isclass(kind) and "table" in dir(kind)}
     saying = {name for name in shown if "loads_counted" in dir(kinds[name])}
     assert shown - saying == NOTHING_OF_GAS
-    results = {type(of(FIRED)) for of in (RESULTS | OF_GAS).values()}
+    results = {type(of(FIRED)) for of in (RESULTS | OF_GAS | OF_FORCES).values()}
     results |= {type(of(BARE)) for of in OF_DESIGN.values()}
     assert {kind.__name__ for kind in results} == saying
 
@@ -151,6 +160,20 @@ def test_force_and_moment_alone_say_nothing(name: str) -> None:
         result = silent[name]()
         assert result.loads_counted == ""
         assert "gas" not in repr(result).casefold()
+
+
+@pytest.mark.parametrize("name", OF_FORCES)
+def test_tables_of_forces_say_nothing_of_gas(name: str) -> None:
+    result = OF_FORCES[name](FIRED)
+    assert result.loads_counted == ""
+    assert "gas" not in repr(result).casefold()
+
+
+def test_a_foundation_table_says_which_loads_push_the_block() -> None:
+    knock = cp.PeriodicLoad("knock", on="block", force={1: 10.0})
+    table = cp.foundation_table(FIRED.with_loads([knock]), 3000)
+    assert table.loads_counted == "loads: knock"
+    assert repr(table).count("Loads: knock.") == 1
 
 
 def test_a_spectrum_has_words_of_its_own() -> None:
@@ -257,12 +280,13 @@ COMMANDS_SAY = {
     "tolerances": "--pin 0.1 --samples 20 --orders 1,2",
     "mounts": "--rpm 3000:4000:500",
     "flywheel": "--inertia 0.1",
+    "guide-moments": "--orders 1,2",
 }
 """Command whose results gas pressure could change → its options."""
 COMMANDS_SILENT = {
     "presets", "new", "gallery", "view",  # no results of an engine: the page says it itself
     "firing", "counterweights", "bob-weight", "card", "two-plane", "match", "closed-form",
-    "harmonics",  # force and moment, angles, masses
+    "harmonics", "foundation", "locomotive",  # force and moment, angles, masses
     "star", "trace", "exercise", "mounts-fit",  # a firing order, the pressure, sheets, modes
 }  # fmt: skip
 

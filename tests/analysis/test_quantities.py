@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.model.presets import usual_speed
 from matplotlib import pyplot as plt
 from support import in_turn
 from support.engines import OFFSET
@@ -35,7 +36,7 @@ NAMES = ("force", "moment", "torque", "crank_torque")
 def test_default_peaks_are_those_of_the_waveform(name: str) -> None:
     """Sampled exactly at 0.05°, within the bound of omitted orders and the step's effect."""
     engine = cp.Engine.preset(name)
-    rpm = 100 if name.endswith("ebook") else 5000
+    rpm = usual_speed(name, 5000)
     b, w = engine.balance(rpm), engine.waveform(rpm, theta_deg=np.arange(0.0, 360.0, 0.05))
     for quantity in NAMES:
         values = getattr(w, quantity)
