@@ -228,6 +228,16 @@ def test_pistons_that_face_each_other_share_a_bore_without_heads() -> None:
         assert bottom < at[numbers].y0 < at[numbers].y1 < top
 
 
+def test_numbers_of_bores_behind_each_other_stand_above_the_highest() -> None:
+    rods = [CYLINDER.replace(rod_length=length) for length in (0.14, 0.2, 0.16)]
+    engine = cp.Engine.inline(rods, throws_deg=[0, 120, 240], spacing=0.1)
+    ax = engine.plot(kind="section")
+    (numbers,) = (text for text in ax.texts if text.get_text() == "1–3")
+    heads = [max(line.get_ydata()) for line in ax.lines if line.get_linewidth() == 1.2]
+    assert len(heads) == 3
+    assert numbers.xy[1] == pytest.approx(max(heads))
+
+
 def test_arrows_are_away_from_bores_and_other_cranks() -> None:
     pair = cp.Engine.u(CYLINDER, throws_deg=[0, 180], spacing=0.1, distance=0.13)
     opposed = cp.Engine.opposed_pistons(CYLINDER, throws_deg=[0], spacing=0.1, distance=0.5)
@@ -411,7 +421,7 @@ def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engin
     assert "url(" not in text
     assert not re.findall(r"(?<!xmlns=\")(?<!xmlns:xlink=\")https?:", text)
     shown = [each.text for each in root.iter(f"{SVG}text")]
-    assert "0.05 m" in shown or "2 m" in shown  # text is text
+    assert {"0.05 m", "1 m", "2 m"} & {*shown}  # text is text
 
 
 def test_pictures_on_one_page_have_ids_of_their_own() -> None:

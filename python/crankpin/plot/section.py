@@ -70,15 +70,19 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
     """Draw each bore once, with its head and the numbers of its cylinders.
 
     A bore in which pistons face each other is open at both ends; the numbers stand beside it.
+    Numbers of bores behind each other stand together above the highest.
     """
     seen: dict[tuple[float, ...], list[int]] = {}
+    above: dict[tuple[float, ...], list[int]] = {}
     lowest, heads = at.lowest - SKIRT * bores, at.highest + (CROWN + 0.04) * bores
     middles = heads.copy()  # between the pistons, where they face each other
     for pair, distance in _opposed(engine, at):
         middles[pair] = lowest[pair] + 0.5 * (distance - lowest[pair].sum())
     for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
-        place = (along.real, along.imag, foot.real, foot.imag, bores[k], heads[k])
-        seen.setdefault(tuple(np.round(place, 9).tolist()), []).append(k)
+        place = np.round([along.real, along.imag, foot.real, foot.imag, bores[k], heads[k]], 9)
+        seen.setdefault(tuple(place.tolist()), []).append(k)
+        if middles[k] == heads[k]:
+            above.setdefault(tuple(place[:4].tolist()), []).append(k)
     reached = [disc(axis, 1.8 * crank_radius(engine)) for axis in (0j, *at.axis.tolist())]
     for cylinders in seen.values():
         k = cylinders[0]
@@ -88,13 +92,15 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
         ax.plot(walls.real, walls.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
         axis = at.foot[k] + np.array([0.0, middles[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
-        numbers = listed([place + 1 for place in cylinders])
         if is_open:
             side = corners[:2] if corners[0].real < corners[3].real else corners[2:]
+            numbers = listed([place + 1 for place in cylinders])
             outside(ax, complex(side.mean()), numbers, complex(axis.mean()))
-        else:
-            outside(ax, axis[1], numbers, complex(at.axis[k]))
         reached.append(corners)
+    for cylinders in above.values():
+        k = max(cylinders, key=lambda place: float(heads[place]))
+        numbers = listed([place + 1 for place in cylinders])
+        outside(ax, complex(at.foot[k] + heads[k] * at.along[k]), numbers, complex(at.axis[k]))
     # Numbers need room beyond the heads.
     ax.update_datalim(points(1.06 * np.concatenate(reached)))
 
