@@ -238,6 +238,15 @@ def test_numbers_of_bores_behind_each_other_stand_above_the_highest() -> None:
     assert numbers.xy[1] == pytest.approx(max(heads))
 
 
+def test_numbers_of_throws_at_one_place_are_apart() -> None:
+    engine = cp.Engine.from_lists(
+        CYLINDER, bank_deg=[90, 90], pin_deg=[0, 180], z=[0.0, 0.0], rotating_mass=0.1
+    )
+    ax = engine.plot(kind="side")
+    first, second = (text for text in ax.texts if text.get_text() in "12")
+    assert first.get_va() != second.get_va() or first.xy[0] != second.xy[0]
+
+
 def test_arrows_are_away_from_bores_and_other_cranks() -> None:
     pair = cp.Engine.u(CYLINDER, throws_deg=[0, 180], spacing=0.1, distance=0.13)
     opposed = cp.Engine.opposed_pistons(CYLINDER, throws_deg=[0], spacing=0.1, distance=0.5)
@@ -421,7 +430,7 @@ def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engin
     assert "url(" not in text
     assert not re.findall(r"(?<!xmlns=\")(?<!xmlns:xlink=\")https?:", text)
     shown = [each.text for each in root.iter(f"{SVG}text")]
-    assert {"0.05 m", "1 m", "2 m"} & {*shown}  # text is text
+    assert {"0.05 m", "0.5 m", "1 m", "2 m"} & {*shown}  # text is text
 
 
 def test_pictures_on_one_page_have_ids_of_their_own() -> None:

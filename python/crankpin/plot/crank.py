@@ -215,6 +215,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
     journals = [_rectangle(front, back, line - half, line + half) for line in lines.values()]
     webs = []
+    taken: set[tuple[float, float, bool]] = set()
     reach = 2.0 * crank_radius(engine)
     for throw in drawn:
         line = lines[throw[0].pin.crank]
@@ -226,9 +227,9 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         for k, (stretch, height) in enumerate(zip(throw, heights, strict=True)):
             # Numbers of pins side by side have the room between throws too.
             z = middle + (k - 0.5 * (len(throw) - 1)) * room
-            points = _number(
-                ax, z, height, line, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre
-            )
+            is_up = _is_up(taken, line, z, height, half)
+            edge = complex(z, height + (1.2 if is_up else -1.2) * half)
+            points = _number(ax, edge, is_up, stretch.pin.cylinders, 0.9 * room * per_metre)
             reach = max(reach, abs(height - line) + 1.2 * half + points / per_metre)
         # Webs: from the main journal to a pin, from pin to pin, and back to the main journal.
         joined = zip([line, *heights], [*heights, line], strict=True)
@@ -296,10 +297,18 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     return drawn, pitch
 
 
-def _number(
-    ax: Axes, z: float, y: float, line: float, clear: float, cylinders: Sequence[int], room: float
-) -> float:
-    """Write the numbers of a pin's cylinders on the side of it that is away from the axis.
+def _is_up(
+    taken: set[tuple[float, float, bool]], line: float, z: float, height: float, half: float
+) -> bool:
+    """Return whether the number of a pin is above it: two throws may lie in the middle."""
+    is_up = height - line > -1e-9 * half
+    is_up ^= (line, round(z, 9), is_up) in taken
+    taken.add((line, round(z, 9), is_up))
+    return is_up
+
+
+def _number(ax: Axes, edge: complex, up: bool, cylinders: Sequence[int], room: float) -> float:
+    """Write the numbers of a pin's cylinders above its edge, or below it.
 
     They are below each other where they are wider than ``room``, points. Return how far they reach,
     points.
@@ -307,8 +316,7 @@ def _number(
     text, font = listed(cylinders), FontProperties(size="small")
     if points_of(ax, text, font) > room:
         text = text.replace(", ", "\n")
-    up = 1.0 if y - line > -1e-9 * clear else -1.0
-    write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
+    write(ax, text, edge, 3.0j if up else -3.0j, va="bottom" if up else "top")
     return 3.0 + LINE_HEIGHT * font.get_size_in_points() * (text.count("\n") + 1)
 
 
