@@ -735,9 +735,13 @@ def test_numbers_of_bores_are_within_the_picture(open_engine: Open) -> None:
 def test_an_upper_crank_has_its_pistons_above_the_lower_one_s(open_engine: Open) -> None:
     page = open_engine(h_sixteen())
     drawn = page.eval_on_selector_all(
-        ".scene.above .piston text", "found => found.map((each) => +each.textContent)"
+        ".scene.above :is(.bore, .piston)", "found => found.map((each) => each.textContent)"
     )
-    assert max(map(drawn.index, range(1, 9))) < min(map(drawn.index, range(9, 17)))
+    pistons = [drawn.index(f"{number}") for number in range(1, 17)]
+    bores = [place for place, number in enumerate(drawn) if not number]
+    assert len(bores) == 16
+    assert max(pistons[:8]) < min(pistons[8:])
+    assert max(bores) < min(pistons[8:])
 
 
 def test_arrows_of_two_cranks_stay_apart(open_engine: Open) -> None:
