@@ -13,6 +13,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.star import StarDiagram
@@ -78,7 +79,8 @@ def phasors(
     moment, one row for a torque. Arrows that cover each other are moved apart.
     """
     if ax is not None:
-        raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
+        hint = Hint.of('`kind="phasors"` has several panels; give `figure=…`')
+        raise inputs.rejected("ax", ax, hint)
     kind = drawn_quantity(quantity, nonzero_in(result))
     result._request.check(kind)
     chosen = inputs.explicit_half_orders(
