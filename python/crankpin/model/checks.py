@@ -171,8 +171,8 @@ def angles(**given: object) -> None:
         numbers = numbers if isinstance(numbers, (list, tuple)) else [numbers]
         hints = filter(None, (_near_miss(value) for value in numbers))
         if hint := next(hints, None):
-            fault = f"= {inputs.shorten(values)}: {hint}"
-            warn(name, fault, "if that is meant, give it as text")
+            meant = "if that is meant, give it as text"
+            warn(name, f"= {inputs.shorten(values)}: {hint}; {meant}")
         radians(name, values, numbers)
 
 

@@ -361,14 +361,14 @@ def _star(
 def _distinct(result: StarDiagram) -> list[list[Order]]:
     """Return the orders that have the same vectors, as even firing makes them every few orders."""
     alike: dict[bytes, list[Order]] = {}
-    for order, vectors in zip(result.orders, result.vectors, strict=True):
+    for order, vectors in zip(result.orders, result.read("vectors"), strict=True):
         alike.setdefault((np.round(vectors, EQUAL_DECIMALS) + 0.0).tobytes(), []).append(order)
     return list(alike.values())
 
 
 def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any]) -> list[Line2D]:
     """Draw the vectors of an order and their sum; return the entries of a legend."""
-    vectors = result.vectors[result._place(order)]
+    vectors = result.read("vectors")[result._place(order)]
     total, longest = result[order], float(np.abs(vectors).max(initial=0.0))
     ax.set_aspect("equal")
     ax.set(xticks=[], yticks=[], xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), frame_on=False)

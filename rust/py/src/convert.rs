@@ -34,35 +34,21 @@ pub fn python_error(error: core::Error) -> PyErr {
 /// A piece of a hint: words, or, with a value that may be empty, the name of an argument or a method.
 pub type Piece = (String, Option<String>);
 
-type StaticPiece = (&'static str, Option<&'static str>);
-
-/// What hints of the core call by Rust's names, and how Python says it.
-const NAMES: [(&str, &[StaticPiece]); 16] = [
-    ("`Engine::new`", &[("Engine.from_lists", Some(""))]),
-    ("`Engine::without_gas`", &[("engine.with_cycle(None)", None)]),
-    ("`Powertrain::on`", &[("p.on(…)", None)]),
-    ("`Timing::Ports`", &[("Firing.ports, PortTiming", None)]),
-    ("`Timing::Valves`", &[("Firing.valves, ValveTiming", None)]),
-    (
-        "a `Vee` with",
-        &[("Engine.vee", Some("")), (" with ", None), ("throws_deg", Some("…")), (",", None)],
-    ),
-    ("a `Vee` of 180°", &[("Engine.flat", Some(""))]),
-    ("`by_axis: false`", &[("corners", Some("\"mounts\""))]),
-    ("`torque: false`", &[("torque", Some("False"))]),
-    ("`spectrum`", &[("spectrum", Some(""))]),
-    ("an engine with strokes 2", &[("an engine with ", None), ("strokes", Some("2"))]),
-    ("an engine with strokes 4", &[("an engine with ", None), ("strokes", Some("4"))]),
-    ("has that centre", &[("has that centre: ", None), ("tdc_deg", Some("…"))]),
-    (
-        "give orders and speeds within",
-        &[("give ", None), ("orders", Some("…")), (" and speeds within", None)],
-    ),
-    (
-        "needs the bore of each cylinder",
-        &[("needs the bore; give ", None), ("bore", Some("…")), (" to each Cylinder", None)],
-    ),
-    ("sweep one axis in parts", &[("sweep one axis in parts, or use to_dask", None)]),
+/// What hints of the core call by Rust's names, and how Python says it, with names in backticks.
+const NAMES: [(&str, &str); 13] = [
+    ("`Engine::new`", "`Engine.from_lists`"),
+    ("`Engine::without_gas`", "engine.with_cycle(None)"),
+    ("`Powertrain::on`", "p.on(…)"),
+    ("`Timing::Ports`", "Firing.ports, PortTiming"),
+    ("`Timing::Valves`", "Firing.valves, ValveTiming"),
+    ("a `Vee` with", "`Engine.vee` with `throws_deg=…`,"),
+    ("a `Vee` of 180°", "`Engine.flat`"),
+    ("`by_axis: false`", "`corners=\"mounts\"`"),
+    ("`torque: false`", "`torque=False`"),
+    ("at which it has that centre", "at which it has that centre: `tdc_deg=…`"),
+    ("give orders and speeds within", "give `orders=…` and speeds within"),
+    ("needs the bore of each cylinder", "needs the bore; give `bore=…` to each Cylinder"),
+    ("sweep one axis in parts", "sweep one axis in parts, or use to_dask"),
 ];
 
 /// A hint of the core in Python's names: those of [`NAMES`], and `` `name: value` ``, a keyword.
@@ -74,13 +60,17 @@ pub fn python_pieces(text: &str) -> Vec<Piece> {
     pieces.into_iter().flat_map(keywords).filter(|(text, _)| !text.is_empty()).collect()
 }
 
-/// A piece with others in place of a text.
-fn split((text, value): Piece, rust: &str, python: &[StaticPiece]) -> Vec<Piece> {
+/// A piece with another text, in which names are in backticks, in place of some words.
+fn split((text, value): Piece, rust: &str, python: &str) -> Vec<Piece> {
     if value.is_some() || !text.contains(rust) {
         return vec![(text, value)];
     }
-    let owned = |(text, value): &StaticPiece| ((*text).to_owned(), value.map(str::to_owned));
-    let between: Vec<Piece> = python.iter().map(owned).collect();
+    let piece = |(k, words): (usize, &str)| match words.split_once('=') {
+        _ if k % 2 == 0 => (words.to_owned(), None),
+        Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
+        None => (words.to_owned(), Some(String::new())),
+    };
+    let between: Vec<Piece> = python.split('`').enumerate().map(piece).collect();
     let words = text.split(rust).map(|words| vec![(words.to_owned(), None)]);
     words.collect::<Vec<_>>().join(&between[..])
 }
@@ -90,8 +80,12 @@ fn keywords((text, value): Piece) -> Vec<Piece> {
     if value.is_some() {
         return vec![(text, value)];
     }
+    let is_name = |name: &str| name.bytes().all(|byte| byte == b'_' || byte.is_ascii_lowercase());
     let of = |(k, words): (usize, &str)| match words.split_once(": ") {
-        Some((name, value)) if k % 2 == 1 => (name.to_owned(), Some(value.to_owned())),
+        Some((name, value)) if k % 2 == 1 && is_name(name) => {
+            (name.to_owned(), Some(value.to_owned()))
+        }
+        _ if k % 2 == 1 => (format!("`{words}`"), None),
         _ => (words.to_owned(), None),
     };
     text.split('`').enumerate().map(of).collect()

@@ -382,10 +382,10 @@ class Question:
         return float(np.max(response.read(name, "peak")))
 
     def _purities(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._frequency).purity
+        return powertrain.modes(self._frequency).read("purity")
 
     def _modes(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._frequency).frequency
+        return powertrain.modes(self._frequency).read("frequency")
 
     # --- the search -------------------------------------------------------------------------------
 
