@@ -84,12 +84,12 @@ def warning_in_options(text: str, options: Iterable[Option], typed: Mapping[str,
     # What a new engine is made of is an option or its default; of others it may be in the file.
     new = "kind" in typed
     every = [*options]
-    given = [option for option in every if new or typed.get(option.dest) is not None]
+    chosen = [option for option in every if new or typed.get(option.dest) is not None]
     if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
-        given = [option for option in given if option.dest != "reciprocating_mass"]
+        chosen = [option for option in chosen if option.dest != "reciprocating_mass"]
     entries = [
         entry._replace(
-            about=_label(entry.about, given),
+            about=_label(entry.about, chosen),
             fault=_in_shell(Hint(entry.fault), every),
             hint=Hint(_in_shell(entry.hint, every)),
         )

@@ -559,9 +559,9 @@ def _speed(
         changes_text = _listed([f"{100.0 * of_each[k]:+.1f} % after {times[k]:.6g} s" for k in odd])
         warn("the speed of the record", f"changes, {changes_text}", "a constant one is assumed")
     if stated is not None and abs(rpm - stated) > SPEEDS * stated:
-        found = f"compressions of the record follow each other at {rpm:.5g} rpm, which is taken"
+        measured = f"compressions of the record follow each other at {rpm:.5g} rpm, which is taken"
         hint = Hint.of("are `strokes` and unit of time right?")
-        warn("recorded_rpm", f"= {stated:g}: {found}", hint)
+        warn("recorded_rpm", f"= {stated:g}: {measured}", hint)
     return rpm
 
 

@@ -142,8 +142,8 @@ def balance_shafts(
         speed,
     )
     if beyond is not None:
-        fault = f"is not cancelled: shafts that do so would be {beyond:.3g} m from the crank axis"
-        warn("the roll torque", fault, Hint.of("give `x` and `y`"))
+        far = f"is not cancelled: shafts that do so would be {beyond:.3g} m from the crank axis"
+        warn("the roll torque", Hint.of(f"{far}; give `x` and `y`"))
     first, last = ends(engine)[0], ends(engine)[-1]
     supports = (first, last) if first < last else None
     fit = BalanceShafts(
