@@ -11,8 +11,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import suppressed
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.turning_moment import formula
 from crankpin.analysis.waveform import Waveform, waveform
