@@ -774,7 +774,7 @@ class Builders(EngineData):
             }  # fmt: skip
             return _by_side_rods(cls, lower, above, lead_deg, **names)
         if distance is None:
-            hint = "give the distance of the cranks, m, or one_crankshaft=True"
+            hint = Hint.of("give the distance of the cranks, m, or `one_crankshaft=True`")
             raise inputs.rejected("distance", None, hint)
         lead = inputs.angle("lead_deg", lead_deg)
         later = lead[1:] if lead.startswith("-") else f"-{lead}"
