@@ -83,7 +83,7 @@ def energies(factor: float, plain: bool) -> np.ndarray:
     ]
     p = cp.Powertrain(SINGLE, body, mounts)
     if not plain:
-        return p.modes().energy
+        return p.modes().read("energy")
     stiffness, mass = matrices(p)
     root = np.sqrt(np.diag(mass))
     _, shapes = np.linalg.eigh(stiffness / np.outer(root, root))

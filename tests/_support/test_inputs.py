@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import copy
 import threading
 import tracemalloc
 import warnings
@@ -16,7 +17,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin._support import inputs
-from crankpin._support.warnings import suppressed, warn
+from crankpin._support.messages import suppressed, warn
 from support.engines import CYLINDER, I4, V6
 
 if TYPE_CHECKING:
@@ -137,13 +138,34 @@ def test_a_warning_kept_back_in_one_thread_is_heard_in_another() -> None:
         thread.start()
         inside.wait(10)
         assert warnings.filters == filters  # what threads share stays as it is
-        warn("heard")
+        warn("heard", "")
         done.set()
         thread.join()
-        with suppressed("mean piston"):
-            warn("mean piston speed is high")
-            warn("heard too")
+        with suppressed("mean piston speed"):
+            warn("mean piston speed", "is high")
+            warn("heard too", "")
     assert [str(each.message) for each in heard] == ["heard", "heard too"]
+
+
+def test_warnings_are_the_same_by_what_they_are_about_and_hint_at() -> None:
+    """In a loop each figure is another: Python shows one. Names with figures are others."""
+
+    def warned(*arguments: str) -> None:
+        for name in arguments:
+            warn(f"at of mount '{name}'", f"= {len(name) * 10} m", "was it given in millimetres?")
+
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("default")
+        warned("rear 1", "rear 1", "rear 2")
+        for size in (86.0, 87.0):
+            warn("bore", f"= {size} m and stroke = 0.086 m", "are both in metres?")
+    texts = [str(each.message) for each in heard]
+    assert [text.partition(" = ")[0] for text in texts] == [
+        "at of mount 'rear 1'",
+        "at of mount 'rear 2'",
+        "bore",
+    ]
+    assert copy.copy(heard[0].message.args[0]) == heard[0].message.args[0]  # type: ignore[union-attr]
 
 
 def test_no_module_changes_the_warnings_of_the_process() -> None:

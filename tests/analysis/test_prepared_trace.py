@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from functools import partial
 from typing import Any, NamedTuple
 
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin._support import inputs
-from crankpin.analysis import prepared_trace
+from crankpin import _core
 from numpy.typing import NDArray
 from rederivation import traces as again
 from support import in_turn
@@ -164,33 +162,44 @@ def test_filters_take_noise_and_leave_orders_below_them(seed: int) -> None:
     np.testing.assert_allclose(halved.pressure - 5e5, 0.5 * (wave.pressure - 5e5), atol=1e-3)
 
 
-def test_filters_transform_a_few_numbers_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Ctrl-C is answered between them: one transform of everything took a third of a second."""
-    rng, sizes = np.random.default_rng(1), list[int]()
+@in_turn("seed", range(6))
+def test_peaks_offsets_and_filters_are_those_of_numpy(seed: int) -> None:
+    """Its fits and transforms of all cycles at once; what differs is their rounding."""
+    known = bench(seed)
+    motored = known.motored.pressure.mean(axis=0)
+    peak = again.compression_peak(THETA, motored, 720.0)
+    # A slope that rounds by 1e-14 of its terms, 1e5 Pa/°, beside a curvature of 2.5e3 Pa/deg².
+    assert abs(_core.compression_peak(THETA, motored, 720.0) - peak) < 1e-10
+    window = (THETA >= -100.0) & (THETA <= -60.0)
+    rows, volume = (
+        known.traces.pressure[:, window],
+        again.relative_volume(THETA[window], known.crank, known.ratio),
+    )
+    figures = (known.cylinder._parts, known.cylinder.bore, known.ratio, 4)
+    parts = figures, THETA[window], rows
+    n, offsets = _core.polytropic_offsets(*parts, None)
+    # Squares that round by 1e-15 of themselves leave half of the digits of where they are least.
+    assert abs(n - again.fitted_exponent(rows.mean(axis=0), volume)) < 1e-8
+    np.testing.assert_allclose(offsets, again.polytropic_offsets(rows, volume, n), atol=1e-6)
+    n, offsets = _core.polytropic_offsets(*parts, 1.3)
+    assert n == 1.3
+    np.testing.assert_allclose(offsets, again.polytropic_offsets(rows, volume, n), atol=1e-6)
 
-    def recorded(transform: Any) -> Any:  # noqa: ANN401 - of numpy.fft
-        def of(values: NDArray[Any], *options: Any, **more: Any) -> NDArray[Any]:  # noqa: ANN401
-            sizes.append(np.size(values))
-            transformed: NDArray[Any] = transform(values, *options, **more)
-            return transformed
 
-        return of
-
-    def gain(steep: float, turns: NDArray[np.float64]) -> NDArray[np.float64]:
-        return 1.0 / (1.0 + (turns / steep) ** 8)
-
-    for count, length in [(1, 1), (1, 8), (2, 1), (2, 9), (7, 16), (8, 7), (300, 721)]:
-        rows, steep = rng.normal(size=(count, length)), rng.uniform(0.1, length)
-        spectrum = np.fft.fft(rows.ravel())
-        turns = np.abs(np.fft.fftfreq(rows.size, 1.0 / length))
-        spectrum *= gain(steep, turns)
-        expected = np.fft.ifft(spectrum).real.reshape(rows.shape)
-        with monkeypatch.context() as patched:
-            for name in ("fft", "ifft", "rfft", "irfft"):
-                patched.setattr(np.fft, name, recorded(getattr(np.fft, name)))
-            filtered = prepared_trace._convolved(rows, partial(gain, steep))
-        np.testing.assert_allclose(filtered, expected, atol=1e-13)
-    assert max(sizes) <= inputs.PIECE_NUMBERS < rows.size
+@in_turn("seed", range(3))
+def test_filters_of_records_of_any_length_are_those_of_numpy(seed: int) -> None:
+    """Even and odd, prime, of large primes, closed or open, one cycle or many."""
+    rng = np.random.default_rng([9, seed])
+    for count, length in [(1, 8), (2, 9), (7, 16), (8, 7), (37, 74), (61, 131), (300, 721)]:
+        rows, closed = rng.normal(size=(count, length)), bool(rng.integers(2))
+        order = rng.uniform(0.1, length / 4.0)
+        theta = 720.0 * np.arange(length + closed) / length
+        given = np.column_stack([rows, rows[:, 0]]) if closed else rows
+        filtered = _core.low_passed(theta, given, 720.0, order)
+        expected = again.low_passed(rows, 720.0, order)
+        np.testing.assert_allclose(filtered[:, :length], expected, atol=1e-13)
+        if closed:
+            np.testing.assert_array_equal(filtered[:, -1], filtered[:, 0])
 
 
 def test_the_change_of_each_step_is_reported() -> None:

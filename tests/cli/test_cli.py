@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 from crankpin import cli
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin._support.record import AbsentItemError
 from crankpin.cli import main
 from crankpin.cli.arguments import Given
@@ -676,7 +677,7 @@ def test_engines_are_ranked_as_they_are_unless_angles_are_given(capsys: CAPTURE)
 
 
 def test_an_error_named_as_in_a_shell_keeps_its_fields() -> None:
-    hint = 'give hold="pins", or rpm=[1, 2]; see bank_angle'
+    hint = Hint.of('give `hold="pins"`, or `rpm=[1, 2]`; see `bank_angle`')
     options = [option("--bank-angle"), option("--hold"), option("--rpm")]
     error = error_in_options(
         inputs.rejected("bank_angle_deg[1]", 190.0, hint, AbsentItemError),

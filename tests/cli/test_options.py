@@ -5,14 +5,17 @@ Every option of every command, by introspection.
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import crankpin as cp
 import pytest
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin._support.parameters import parameter
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.cli import ORDER, _homes, registered
@@ -97,9 +100,36 @@ def test_a_value_of_a_list_and_one_left_out_are_said() -> None:
     several = inputs.rejected("angles_deg[1]", 370.0, "give less")
     said = str(error_in_options(several, known, {"angles": "0,370"}))
     assert said == "--angles[1] = 370.0: give less"
-    without = inputs.rejected("bound", None, "give it, or minimise=None")
+    without = inputs.rejected("bound", None, Hint.of("give it, or `minimise=None`"))
     said = str(error_in_options(without, known, {"bound": None}))
     assert said == "--bound is left out: give it, or --minimise None"
+    # Words stay as they are: a user may have named something so.
+    words = inputs.rejected("bound", 3.0, "of planes='keep=[1]' and pin_split_deg")
+    said = str(error_in_options(words, options("counterweights"), {"keep": "1", "bound": "3"}))
+    assert said == "--bound = 3: of planes='keep=[1]' and pin_split_deg"
+
+
+def test_hints_name_arguments_in_parts() -> None:
+    """What an option gives in a command stands in backticks of ``Hint.of``, not among words."""
+    words = re.compile(r"(?<![`\w(])(\w+)=(?:…|\[|True\b|False\b|None\b|\"\w)")
+    package, wrong = Path(cp.__file__).parent, list[str]()
+    callers = ("rejected", "faulty", "warn", "Hint", "Hint.of")
+    for file in package.rglob("*.py"):
+        if "cli" in file.relative_to(package).parts:
+            continue
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            called = isinstance(node, ast.Call) and ast.unparse(node.func).endswith(callers)
+            if called or (isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "hint"):
+                wrong += [
+                    f"{file.name}:{text.lineno}: {text.value}"
+                    for text in ast.walk(node)
+                    if isinstance(text, ast.Constant)
+                    and isinstance(text.value, str)
+                    and words.search(text.value)
+                ]
+    # Methods of objects, which no command has.
+    assert [text for text in wrong if "(…, crankcase=…)" not in text] == []
 
 
 def test_units_of_files_are_those_that_are_read() -> None:

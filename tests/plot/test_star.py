@@ -42,7 +42,7 @@ def test_vectors_are_drawn_to_the_longest_and_the_sum_to_that_of_all(
     diagram: cp.results.StarDiagram, order: float
 ) -> None:
     ax = diagram.plot(order=order)
-    vectors = diagram.vectors[diagram.orders.index(order)]
+    vectors = diagram.read("vectors")[diagram.orders.index(order)]
     expected = vectors / abs(vectors).max()
     np.testing.assert_allclose(np.sort(tips(ax)), np.sort(expected), atol=1e-12)
     size = abs(vectors).sum()
@@ -64,7 +64,7 @@ def test_every_star_has_a_panel_that_names_its_orders() -> None:
         "order 3",
     ]
     for panel, order in zip(panels, MODE.orders, strict=True):
-        vectors = MODE.vectors[MODE.orders.index(order)] / max(SHAPE)
+        vectors = MODE.read("vectors")[MODE.orders.index(order)] / max(SHAPE)
         np.testing.assert_allclose(np.sort(tips(panel)), np.sort(vectors), atol=1e-12)
     # Directions of an even-firing inline-6 repeat after three orders.
     panels = list(cp.star_diagram(cp.Engine.preset("i6")).plot().flat)

@@ -116,8 +116,8 @@ def test_the_long_form_has_every_number_of_the_table(name: str) -> None:
 
 
 def test_chosen_columns_of_the_long_form() -> None:
-    table: Any = OBJECTS["StaticState"]
-    name = "weight F_y"
+    table: Any = OBJECTS["PreparedTrace"]
+    name = "changes"
     assert {*table.tidy(name)["quantity"].values} == {name}
     with pytest.raises(cp.InputError, match="columns = 'power'"):
         table.tidy("power")

@@ -112,3 +112,48 @@ def offset_of_two_points(
     p1, p2 = pressure[k]
     ratio = (v1 / v2) ** n
     return float((p2 - ratio * p1) / (ratio - 1.0))
+
+
+# --- what prepares a measured trace ---------------------------------------------------------------
+
+
+def compression_peak(theta: Array, pressure: Array, period: float) -> float:
+    """Return the angle of the peak of a polynomial of degree 6 within 20° of the largest value."""
+    half, largest = period / 2.0, float(theta[pressure.argmax()])
+    away = (theta - largest + half) % period - half
+    near = np.abs(away) <= 20.0
+    fit = np.polynomial.Polynomial.fit(away[near], pressure[near], 6)
+    roots = fit.deriv().roots()
+    inside = roots[(abs(roots.imag) < 1e-9) & (abs(roots.real) < 20.0)].real
+    return float(largest + inside[fit(inside).argmax()])
+
+
+def polytropic_offsets(pressure: Array, volume: Array, n: float) -> Array:
+    """Return what is to be added to rows that are ``C·V⁻ⁿ``: least squares of two columns."""
+    matrix = np.column_stack([np.ones(len(volume)), volume**-n])
+    return np.asarray(-np.linalg.lstsq(matrix, pressure.T, rcond=None)[0][0])
+
+
+def fitted_exponent(pressure: Array, volume: Array) -> float:
+    """Return the exponent from 1.15 to 1.45 that leaves the least squares, by a polynomial."""
+
+    def left(n: float) -> float:
+        matrix = np.column_stack([np.ones(len(volume)), volume**-n])
+        solved, *_ = np.linalg.lstsq(matrix, pressure, rcond=None)
+        return float(((matrix @ solved - pressure) ** 2).sum())
+
+    ends = (1.15, 1.45)
+    curve = np.polynomial.Chebyshev.interpolate(
+        lambda exponents: np.array([left(n) for n in exponents]), 16, ends
+    )
+    roots = curve.deriv().roots()
+    real = roots.real[abs(roots.imag) < 1e-9]
+    return float(min(np.clip([*ends, *real], *ends), key=curve))
+
+
+def low_passed(rows: Array, period: float, order: float) -> Array:
+    """Return rows, one after the other, through Butterworth's filter of order 4, both ways."""
+    spectrum = np.fft.rfft(rows.ravel())
+    turns = np.fft.rfftfreq(rows.size, 1.0 / rows.shape[1]) * 360.0 / period
+    smooth = np.fft.irfft(spectrum / (1.0 + (turns / order) ** 8), rows.size)
+    return np.asarray(smooth.reshape(rows.shape))

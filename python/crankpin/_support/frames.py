@@ -13,8 +13,8 @@ import numpy as np
 from crankpin._support import files, inputs, labels, optional
 from crankpin._support import units as unit_names
 from crankpin._support.drawing import Plot
+from crankpin._support.messages import without_controls
 from crankpin._support.record import AbsentItemError, Record, changed
-from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -19,7 +19,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support.warnings import warn
+from crankpin._support.messages import Hint, hint_of, warn, warn_of_core
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -290,7 +290,8 @@ def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
         last, step = theta[-1], theta[-1] - theta[-2]  # the end of a range may be left out
         ends = np.abs(np.subtract.outer([last, last + step], [math.tau, 2.0 * math.tau]))
         if ends.min() < ROUNDED_RADIANS:
-            warn(f"theta_deg ends at {last:g}: was it given in radians? Angles are degrees here")
+            hint = "was it given in radians? Angles are degrees here"
+            warn("theta_deg", f"ends at {last:g}", hint)
     return theta
 
 
@@ -496,8 +497,9 @@ def firing_order(
             numbers = [
                 float(value) if isinstance(value, np.floating) else value for value in entries
             ]
-            hint = f"{hint}; firing intervals are intervals_deg of Engine.from_firing_order"
-            raise rejected(name, numbers, hint)
+            intervals = "firing intervals are `intervals_deg` of `Engine.from_firing_order`"
+            more = Hint.of(f"{hint}; {intervals}")
+            raise rejected(name, numbers, more)
         return "-".join(shorten(number) for number in entries)
     typed = text(name, values, hint)
     plain = typed.strip()
@@ -613,8 +615,8 @@ def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
     if rtol is None:
         return default
     if orders is not None:
-        hint = 'leave it out, or give orders="auto"'
-        raise rejected("rtol", rtol, f"rtol is for the choice of orders; {hint}")
+        hint = Hint.of('`rtol` is for the choice of orders; leave it out, or give `orders="auto"`')
+        raise rejected("rtol", rtol, hint)
     return number("rtol", rtol)
 
 
@@ -640,8 +642,7 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
 
 def warn_of_units(mean_piston_speed: float) -> None:
     """Warn of a piston that would be faster, in m/s, than in any engine."""
-    for text in _core.piston_speed_warnings(mean_piston_speed):
-        warn(text)
+    warn_of_core(_core.piston_speed_warnings(mean_piston_speed))
 
 
 _SHORT = reprlib.Repr()
@@ -675,26 +676,32 @@ def faulty(argument: str, fault: str, hint: str, kind: type[InputError] = InputE
 
 def renamed(error: InputError, old: str, new: str) -> InputError:
     """Return the error of an argument that a caller gave under another name."""
-    argument, hint = error.argument, error.hint
-    if argument is None or hint is None or not argument.startswith(old):
+    argument = error.argument
+    if argument is None or not argument.startswith(old):
         return error
-    fault = str(error)[len(argument) + 1 : -len(hint) - 2]
-    return faulty(new + argument.removeprefix(old), fault, hint, type(error))
+    name = new + argument.removeprefix(old)
+    return faulty(name, fault_of(error), hint_of(error), type(error))
+
+
+def fault_of(error: InputError) -> str:
+    """Return what is wrong with the argument of an error, ``"= 3"`` or ``"has 3 entries"``."""
+    argument, hint = error.argument or "", error.hint or ""
+    return str(error)[len(argument) : len(str(error)) - len(hint)].strip(" :;")
 
 
 def only_one_of(**values: object) -> None:
     """Reject two arguments unless exactly one of them is given."""
     if sum(value is not None for value in values.values()) != 1:
         name, value = values.popitem()
-        one = ", ".join(f"{argument}=…" for argument in [*values, name])
-        raise rejected(name, value, f"give one of {one}")
+        one = ", ".join(f"`{argument}=…`" for argument in [*values, name])
+        raise rejected(name, value, Hint.of(f"give one of {one}"))
 
 
 def only_with(partner: str, **values: object) -> None:
     """Reject arguments other than None without the argument that they need."""
     for name, value in values.items():
         if value is not None:
-            hint = f"needs {partner}; give {partner}=…, or leave it out"
+            hint = Hint.of(f"needs `{partner}`; give `{partner}=…`, or leave it out")
             raise rejected(name, value, hint)
 
 

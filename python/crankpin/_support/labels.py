@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import units
-from crankpin._support.warnings import without_controls
+from crankpin._support.messages import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

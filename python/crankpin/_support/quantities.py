@@ -245,3 +245,98 @@ DESIGNS = {
     },
 }  # fmt: skip
 """Name of a quantity of many designs of mounts → its entry."""
+
+
+def _of(
+    name: str,
+    words: str,
+    unit: str,
+    *dims: str,
+    symbol: str = "",
+    axes: tuple[tuple[str, ...], tuple[str, ...]] | None = None,
+    real: bool = True,
+) -> Kind:
+    """Return a quantity that is no load, of a symbol or along x, y and z."""
+    symbols, components = axes or ((symbol or name,), (words,))
+    return Kind(name, words, symbols, components, unit, dims=dims, real=real)
+
+
+def _named(*kinds: Kind) -> dict[str, Kind]:
+    return {kind.name: kind for kind in kinds}
+
+
+_DIRECTION = ("x", "y", "z"), ("along x", "along y", "along z")
+_TURNS = ("x", "y", "z"), ("about x", "about y", "about z")
+MODES = _named(
+    _of("frequency", "natural frequency", "Hz", "mode", symbol="f"),
+    _of("damped_frequency", "natural frequency with damping", "Hz", "mode", symbol="f"),
+    _of("loss_factor", "loss factor", "", "mode", symbol="η"),
+    _of("purity", "purity", "%", "mode"),
+    _of("subframe_share", "kinetic energy of the subframe", "%", "mode", symbol="share"),
+    _of("energy", "kinetic energy", "%", "coordinate", "mode", symbol="share"),
+    _of("shapes", "shape of unit mass", "", "coordinate", "mode", symbol="φ"),
+    _of("strain", "elastic energy", "%", "mount", "mode", symbol="share"),
+)
+"""Name of a quantity of modes on mounts → its entry."""
+
+ROBUSTNESS = _named(
+    MODES["frequency"],
+    MODES["purity"],
+    _of("least_purity", "least purity found", "%", "mode", symbol="purity"),
+    _of("cg_slope", "slope of the frequency by the place of the CG", "Hz/m", "coordinate", "mode"),
+    _of("frequency_bounds", "frequency within the stiffness", "Hz", "bound", "mode", symbol="f"),
+    _of("mass_bounds", "frequency within mass and inertia", "Hz", "bound", "mode", symbol="f"),
+    _of("cg_range", "frequency with the CG at corners", "Hz", "bound", "mode", symbol="f"),
+)
+"""Name of a quantity of modes within tolerances → its entry."""
+
+ROLL_AXES = _named(
+    _of("torque_roll", "direction of the torque roll axis", "", axes=_DIRECTION),
+    _of("mount_distances", "distance from the torque roll axis", "m", "mount", symbol="d"),
+    *(
+        _of(f"{prefix}{name}", f"{words} of the elastic roll axis{how}", unit, axes=_DIRECTION)
+        for prefix, how in (("", ""), ("dynamic_", ", dynamic"))
+        for name, words, unit in (("elastic", "direction", ""), ("elastic_foot", "foot", "m"))
+    ),
+)
+"""Name of a quantity of axes of roll → its entry."""
+
+RESTING = _named(
+    *(
+        kind
+        for name, cause in (("sag", "weight"), ("wind_up", "torque"), ("thrust_shift", "thrust"))
+        for kind in (
+            _of(name, f"displacement of the CG under the {cause}", "m", axes=_DIRECTION),
+            _of(
+                f"{name.removesuffix('_shift')}_deg",
+                f"rotation under the {cause}", "°", axes=_TURNS,
+            ),
+            _of(f"{cause}_force", f"force of a mount by the {cause}", "N", "mount", axes=_XYZ),
+        )
+    ),
+    _of("preload", "force of a mount", "N", "mount", axes=_XYZ),
+    _of("ground_preload", "force of a subframe's mount", "N", "subframe_mount", axes=_XYZ),
+)  # fmt: skip
+"""Name of a quantity of a powertrain at rest → its entry."""
+
+CANCELLED = _named(
+    _of("forces", "force of an actuator", "N", "actuator", symbol="|F|", real=False),
+    _of("utilisation", "share of the limit", "", "actuator"),
+    _of("residual", "residual at the receivers", ""),
+)
+"""Name of a quantity of forces that cancel orders → its entry."""
+
+ADAPTED = _named(
+    _of("frequency", "frequency", "Hz", symbol="f"),
+    _of("critical_delay", "critical delay", "s"),
+    _of("error_deg", "error of the model's phase", "°", symbol="δ"),
+    _of("largest_step", "largest step", "", symbol="μ"),
+    _of("rate", "attenuation", "dB/update"),
+)
+"""Name of a quantity of a law that adapts phasors → its entry."""
+
+STARS = _named(
+    _of("vectors", "phase vector", "", "cylinder", symbol="|v|", real=False),
+    _of("sums", "sum of phase vectors", "", symbol="|Σv|", real=False),
+)
+"""Name of a quantity of a star diagram → its entry."""

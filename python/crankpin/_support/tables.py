@@ -10,8 +10,8 @@ import numpy as np
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import without_controls
 from crankpin._support.record import AbsentItemError, Record, changed, read_only
-from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -8,9 +8,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import suppressed
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.export import VALUES
 from crankpin.analysis.quantity import ALL, one_order

@@ -10,10 +10,10 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.messages import warn
 from crankpin._support.quantities import INSIDE, LOADS
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import warn
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.geometry import direction
 from crankpin.analysis.labelled import Labelled
@@ -293,7 +293,7 @@ class BearingLoads(InsideLoads, Labelled):
                 raise inputs.rejected(argument, sizes_of, hint)
             inputs.positive_array(argument, sizes, hint)
             if sizes.max() > LARGEST_BEARING * self.engine.cylinders[0].crank_radius:
-                warn(f"{argument} = {sizes.max():g} m: was it given in millimetres?")
+                warn(argument, f"= {sizes.max():g} m", "was it given in millimetres?")
             area *= sizes
         return np.asarray(peaks / area)
 

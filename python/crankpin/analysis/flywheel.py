@@ -11,8 +11,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import suppressed
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.turning_moment import formula
 from crankpin.analysis.waveform import Waveform, waveform
@@ -271,11 +271,7 @@ class Flywheel(Tabled):
     @functools.cached_property
     def swing_deg(self) -> float:
         """Largest less smallest angle by which the crank leads one that turns evenly, degrees."""
-        steps = np.diff(self.theta_deg)
-        slowness = 1.0 / self.speed_rpm
-        times = np.concatenate([[0.0], np.cumsum(steps * (slowness[1:] + slowness[:-1]) / 2.0)])
-        even = times * (self.theta_deg[-1] - self.theta_deg[0]) / times[-1]
-        return float(np.ptp(self.theta_deg - self.theta_deg[0] - even))
+        return _core.swing_deg(self.theta_deg, self.speed_rpm)
 
     def electrical_swing_deg(self, poles: int) -> float:
         """Return the swing of a generator on the crank in electrical degrees.
@@ -319,15 +315,8 @@ class Flywheel(Tabled):
         InputError
             If an order does not come round in the period.
         """
-        listed = np.array(inputs.explicit_half_orders(orders), dtype=np.float64)
-        period = float(self.theta_deg[-1] - self.theta_deg[0])
-        rounds = listed * period / 360.0
-        if (abs(rounds - rounds.round()) > EQUAL * rounds).any():
-            wrong = float(listed[np.argmax(abs(rounds - rounds.round()))])
-            raise inputs.rejected("orders", wrong, f"give ones that come round in {period:g}°")
-        waves = np.exp(-1j * np.radians(np.multiply.outer(listed, self.theta_deg)))
-        phasors = 2.0 * np.trapezoid(waves * self.speed_rpm, self.theta_deg, axis=-1) / period
-        return np.asarray(2.0 * np.abs(phasors) / self.rpm)
+        halves = [round(2 * order) for order in inputs.explicit_half_orders(orders)]
+        return _core.irregularity_by_order(self.theta_deg, self.speed_rpm, self.rpm, halves)
 
     @property
     def table(self) -> Table:

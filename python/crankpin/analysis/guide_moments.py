@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.quantities import GUIDES
 from crankpin._support.record import AbsentError, changed
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import of_cylinders
 from crankpin.analysis.labelled import Labelled
 from crankpin.analysis.request import engine_core
@@ -202,7 +202,7 @@ class GuideMoments(Labelled):
     def x_moment(self) -> Quantity[np.complex128]:
         """X-type bimoment over ``length``, N·m: (…, n_orders); undefined without a length."""
         if self.length is None:
-            hint = "give length to crankpin.guide_moments, or take x_bimoment"
+            hint = Hint.of("give `length` to crankpin.guide_moments, or take x_bimoment")
             raise inputs.faulty("x_moment", "is undefined without a length", hint, AbsentError)
         return self._quantity("x_moment")
 

@@ -41,12 +41,13 @@ class Labelled(Tabled):
     """Dimension along which values are at a point: ``order`` or ``theta_deg``; or none."""
     _registry: ClassVar[Mapping[str, Kind]] = {}
     """Name of each quantity that it may have → its entry in the registry."""
+    _arrays: ClassVar[Any] = MappingProxyType({})
+    """Quantity → its values, of classes that compute all at once."""
 
-    if TYPE_CHECKING:
-
-        @property
-        def loads_counted(self) -> str:
-            """Loads that count where more could, in words."""
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count where more could, in words; empty where none does."""
+        return ""
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -77,8 +78,9 @@ class Labelled(Tabled):
         return tuple(self._registry)
 
     def _values(self, quantity: str) -> NDArray[Any]:
-        """Compute the values of a quantity."""
-        raise NotImplementedError
+        """Compute the values of a quantity; by default those of ``_arrays``, computed before."""
+        values: NDArray[Any] = self._arrays[quantity]
+        return values
 
     @property
     def _own_coords(self) -> Mapping[str, Any]:

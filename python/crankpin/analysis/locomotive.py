@@ -13,9 +13,9 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Framed
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.record import AbsentError, Input, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.balancing.counterweights import counterweights
 from crankpin.analysis.geometry import direction
@@ -349,7 +349,7 @@ class Locomotive(Framed, Input):
         Infinite without a hammer blow. An AttributeError where the loads are not given.
         """
         if not self._loads:
-            hint = "give the static load of the wheels, wheel_load"
+            hint = Hint.of("give the static load of the wheels, `wheel_load`")
             raise inputs.faulty("lifting_rpm", "is undefined", hint, AbsentError)
         amounts = np.array([weight.amount for weight in self.unbalances])
         with np.errstate(divide="ignore"):
@@ -360,7 +360,7 @@ class Locomotive(Framed, Input):
     def _kmh_per_rpm(self) -> float:
         """Speed at 1 rpm, km/h."""
         if self.wheel_diameter is None:
-            hint = "give the diameter of the wheels, wheel_diameter, m"
+            hint = Hint.of("give the diameter of the wheels, `wheel_diameter`, m")
             raise inputs.faulty("speed_kmh", "is undefined", hint, AbsentError)
         return math.pi * self.wheel_diameter / 60.0 * KMH
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import suppressed
 from crankpin._support.quantities import OF_WHEELS
 from crankpin._support.tables import Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.geometry import direction
 from crankpin.analysis.labelled import Labelled
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.messages import suppressed
 from crankpin._support.quantities import LOADS, OF_POINTS
 from crankpin._support.record import AbsentError
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.bearings import InsideLoads, bearing_loads
 from crankpin.analysis.flywheel import flywheel

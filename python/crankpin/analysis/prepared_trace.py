@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, lazy, units
+from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import Hint, suppressed, warn
 from crankpin._support.record import item_key
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed, warn
 from crankpin.model import checks, odd_cycles
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.model.traces import SHOWN_ORDERS, Traces
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
@@ -28,22 +28,11 @@ if TYPE_CHECKING:
 LOSS_ANGLE = 0.7
 """Degrees by which pressure of a motored cylinder peaks before the top dead centre, since gas loses
 heat and leaks: engines have 0.4 to 1.0."""
-AROUND_PEAK = 20.0
-"""Degrees beside the peak of a motored trace within which a polynomial is fitted to it."""
-DEGREE_AT_PEAK = 6
-"""Its degree: what it leaves of compression, 1e-3, is even and moves no peak; noise of 0.1 bar at
-every half degree moves it by 0.1°, in the mean of 60 cycles by 0.01°."""
 INTAKE = (-185.0, -175.0)
 """Crank angles, degrees, between which a cylinder has the pressure of its intake."""
 COMPRESSION = (-100.0, -60.0)
 """Crank angles, degrees, between which compression is polytropic: after the intake has closed, and
 before heat loss, a spark or injection count."""
-EXPONENTS = (1.15, 1.45)
-"""Range in which the exponent of compression is fitted: air has 1.4, rich mixtures 1.25."""
-DEGREE_BY_EXPONENT = 16
-"""Degree of the polynomial through what is left at exponents of that range: exact to rounding."""
-STEEPNESS = 4
-"""Order of the Butterworth filter."""
 NOISY = 0.005
 """Noise over peak pressure above which a warning is raised."""
 ROUNDING = 1e-12
@@ -181,8 +170,10 @@ def prepare_trace(
             said = units.Text("intake at ", units.figure(reference / 1e5, "bar", 4))
         elif exponent is not None:
             window = _window(stages[-1], COMPRESSION if window_deg is None else window_deg, 3)
-            volume = _volumes(stages[-1], cylinder, compression_ratio, window)
-            offsets, said = _polytropic(clean.pressure[:, window], volume, exponent)
+            theta, rows = stages[-1].theta_deg[window], clean.pressure[:, window]
+            offsets, said = _compression(
+                theta, rows, cylinder, clean.strokes, compression_ratio, exponent
+            )
         if intake_pressure is not None or exponent is not None:
             stages.append(stages[-1].replace(pressure=stages[-1].pressure + offsets[:, None]))
             spread = [float(offsets.std(ddof=1))] if len(offsets) > 1 else []
@@ -194,7 +185,7 @@ def prepare_trace(
         # whatever else is wrong, and has been warned of where it is theirs.
         last = stages[-1]
         if _far_peak(last) is None:
-            with suppressed(odd_cycles.BEGINNING):
+            with suppressed(odd_cycles.ABOUT):
                 last.replace()
         elif _far_peak(traces) is None:
             checks.peak(last.theta_deg, last.pressure.mean(axis=0), last.period_deg)
@@ -214,9 +205,11 @@ def _check_together(
 ) -> None:
     """Reject arguments that exclude each other, or act only beside another."""
     if motored is not None and tdc_deg is not None:
-        raise inputs.rejected("tdc_deg", tdc_deg, "motored gives it; leave one of them out")
+        raise inputs.rejected(
+            "tdc_deg", tdc_deg, Hint.of("`motored` gives it; leave one of them out")
+        )
     if intake_pressure is not None and exponent is not None:
-        hint = "intake_pressure gives the reference; leave one of them out"
+        hint = Hint.of("`intake_pressure` gives the reference; leave one of them out")
         raise inputs.rejected("exponent", exponent, hint)
     if motored is None:
         inputs.only_with("motored", loss_angle_deg=loss_angle_deg)
@@ -237,22 +230,23 @@ def _warn(found: PreparedTrace, reference: float | None) -> None:
         checks.absolute("intake_pressure", reference)
     far = _far_peak(found.traces)
     if far is None and abs(found.tdc_deg) > FARTHEST_TDC:
-        warn(
-            f"tdc_deg = {found.tdc_deg:.4g}: more than an encoder is off; are traces and motored "
-            "of one cylinder and one encoder, and is the event of its origin that of the file?"
+        hint = (
+            "more than an encoder is off; are traces and motored of one cylinder and one encoder, "
+            "and is the event of its origin that of the file?"
         )
+        warn("tdc_deg", f"= {found.tdc_deg:.4g}", hint)
     noise, largest = found.traces.noise, float(found.traces.pressure.mean(axis=0).max())
     if noise > NOISY * largest:
-        warn(
-            f"traces have noise of {noise / 1e5:.3g} bar, {100.0 * noise / largest:.2g} % of their "
-            "peak: filter it with lowpass_order=…, and see how imep and orders change"
-        )
+        share = f"{100.0 * noise / largest:.2g} % of their peak"
+        hint = Hint.of("filter it with `lowpass_order=…`, and see how imep and orders change")
+        warn("traces", f"have noise of {noise / 1e5:.3g} bar, {share}", hint)
     imep = float(found.traces.imep(found.cylinder).mean())
     if far is None and imep < -ROUNDING * largest:
-        warn(
-            f"imep = {imep / 1e5:.3g} bar: pressure takes work from the crank. Is the trace a "
-            "motored one? If not, is the top dead centre right?"
+        hint = (
+            "pressure takes work from the crank. Is the trace a motored one? If not, is the top "
+            "dead centre right?"
         )
+        warn("imep", f"= {imep / 1e5:.3g} bar", hint)
 
 
 class PreparedTrace(Tabled):
@@ -396,82 +390,18 @@ def _top_dead_centre(
         raise inputs.rejected("motored", motored, "give crankpin.Traces, or a Cycle")
     loss = LOSS_ANGLE if loss_angle_deg is None else inputs.finite("loss_angle_deg", loss_angle_deg)
     # As far as encoders are off, whatever turn the file counts from.
-    at = float(checks.about_tdc(np.array([compression_peak(motored)]), motored.period_deg)[0])
+    pressure = np.atleast_2d(motored.pressure).mean(axis=0)
+    peak = _core.compression_peak(motored.theta_deg, pressure, motored.period_deg)
+    at = float(checks.about_tdc(np.array([peak]), motored.period_deg)[0])
     said = "assumed" if loss_angle_deg is None else "given"
     return at + loss, f"motored peak at {at:.3f}°, loss angle {loss:g}°, {said}"
 
 
-def compression_peak(motored: Traces | Cycle) -> float:
-    """Return the crank angle of the largest pressure of a motored cycle, between points, degrees.
-
-    It is the root of the derivative of a polynomial, fitted to the points about the largest one,
-    at which the noise of one point would decide.
-    """
-    half, theta = motored.period_deg / 2.0, motored.theta_deg
-    pressure = np.atleast_2d(motored.pressure).mean(axis=0)
-    largest = float(theta[pressure.argmax()])
-    away = (theta - largest + half) % (2.0 * half) - half
-    near = np.abs(away) <= AROUND_PEAK
-    if int(near.sum()) <= DEGREE_AT_PEAK + 2:
-        fault = f"has {int(near.sum())} points within {AROUND_PEAK:g}° of its peak"
-        raise inputs.faulty("motored", fault, "give a finer one")
-    fit = np.polynomial.Polynomial.fit(away[near], pressure[near], DEGREE_AT_PEAK)
-    roots = fit.deriv().roots()
-    inside = roots[(abs(roots.imag) < 1e-9) & (abs(roots.real) < AROUND_PEAK)].real
-    if not len(inside):
-        raise inputs.faulty("motored", "has no peak", "give the trace of a motored cylinder")
-    return float(largest + inside[fit(inside).argmax()])
-
-
 def _filtered(traces: Traces, cutoff: float) -> Traces:
     """Return cycles without the orders above one: all in a row, as they were measured."""
-    theta = traces.theta_deg
-    closed = len(theta) > 1 and theta[-1] - theta[0] > traces.period_deg * (1.0 - 1e-9)
-    rows = traces.pressure[:, :-1] if closed else traces.pressure
-    steps = np.diff(theta)
-    if np.ptp(steps) > 1e-3 * float(steps.max()):
-        raise inputs.faulty("traces", "have steps that differ", "filters need equal steps")
-    highest = rows.shape[1] * 180.0 / traces.period_deg
-    if not _core.SMALLEST <= cutoff < highest:
-        hint = f"give an order above 0 and below {highest:g}, half the points of a turn"
-        raise inputs.rejected("lowpass_order", cutoff, hint)
-    smooth = _convolved(
-        rows,
-        lambda turns: 1.0 / (1.0 + (turns * 360.0 / traces.period_deg / cutoff) ** (2 * STEEPNESS)),
+    return traces.replace(
+        pressure=_core.low_passed(traces.theta_deg, traces.pressure, traces.period_deg, cutoff)
     )
-    if closed:
-        smooth = np.column_stack([smooth, smooth[:, :1]])
-    return traces.replace(pressure=smooth)
-
-
-def _convolved(
-    rows: NDArray[np.float64], gain: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-) -> NDArray[np.float64]:
-    """Return rows, one after the other, their spectrum times a gain of periods in a row.
-
-    The transform of all is one over rows and one over columns, with a twist between, so that no
-    step takes long: Ctrl-C is answered between them.
-    """
-    count, length = rows.shape
-    fft = lazy.imported("numpy.fft")
-    twist = -2j * np.pi / rows.size * np.arange(length)
-    spectra = np.empty((count // 2 + 1, length), complex)
-    for part in _parts(length, count):
-        spectra[:, part] = fft.rfft(rows[:, part], axis=0)
-    for k, spectrum in enumerate(spectra):
-        turned = np.exp(k * twist)
-        turns = np.abs(fft.fftfreq(length, 1.0 / length) + k / count)
-        spectrum[:] = fft.ifft(fft.fft(spectrum * turned) * gain(turns)) * turned.conj()
-    smooth = np.empty(rows.shape)
-    for part in _parts(length, count):
-        smooth[:, part] = fft.irfft(spectra[:, part], count, axis=0)
-    return smooth
-
-
-def _parts(length: int, count: int) -> Iterator[slice]:
-    """Yield slices of columns of ``count`` rows, of at most :data:`PIECE` numbers."""
-    step = max(1, inputs.PIECE_NUMBERS // count)
-    return (slice(start, start + step) for start in range(0, length, step))
 
 
 def _window(traces: Traces, window_deg: object, fewest: int) -> NDArray[np.bool_]:
@@ -498,55 +428,27 @@ def _reference(intake_pressure: object, at_deg: NDArray[np.float64]) -> float:
     return value
 
 
-def _volumes(
-    traces: Traces, cylinder: Cylinder, compression_ratio: float | None, window: NDArray[np.bool_]
-) -> NDArray[np.float64]:
-    """Return the volume over the smallest one at the points of a window."""
+def _compression(
+    theta_deg: NDArray[np.float64],
+    rows: NDArray[np.float64],
+    cylinder: Cylinder,
+    strokes: int,
+    compression_ratio: float | None,
+    exponent: float | Literal["fit"],
+) -> tuple[NDArray[np.float64], str]:
+    """Return what must be added to each cycle that it is ``C·V⁻ⁿ`` in a window, and how."""
     if compression_ratio is None:
         raise inputs.rejected("compression_ratio", None, "a polytropic compression needs it")
-    ratio, at = inputs.finite("compression_ratio", compression_ratio), traces.theta_deg[window]
-    return _core.volume_ratios(cylinder._parts, cylinder.bore, ratio, traces.strokes, at)
-
-
-def _polytropic(
-    pressure: NDArray[np.float64], volume: NDArray[np.float64], exponent: float | Literal["fit"]
-) -> tuple[NDArray[np.float64], str]:
-    """Return what must be added to each cycle that it is ``C·V⁻ⁿ``, and how."""
+    ratio = inputs.finite("compression_ratio", compression_ratio)
+    fitted = isinstance(exponent, str)
+    number = None
     if isinstance(exponent, str):
         inputs.one_of("exponent", exponent, ("fit",))
-        n = _fitted(pressure.mean(axis=0), volume)
-        said = f"compression with n = {n:.3f} (fitted)"
     else:
-        n = inputs.finite("exponent", exponent)
-        if not 1.0 <= n <= 2.0:
-            raise inputs.rejected("exponent", n, "give 1.25 to 1.4, or one between 1 and 2")
-        said = f"compression with n = {n:g} (given)"
-    constant = _line(pressure, volume, n)[0]
-    return -constant, said
-
-
-def _line(
-    pressure: NDArray[np.float64], volume: NDArray[np.float64], n: float
-) -> tuple[NDArray[np.float64], float]:
-    """Return the constants of the best ``constant + C·V⁻ⁿ`` and the sum of squares left."""
-    matrix = np.column_stack([np.ones(len(volume)), volume**-n])
-    rows = np.atleast_2d(pressure)
-    found = np.linalg.lstsq(matrix, rows.T, rcond=None)[0]
-    return np.asarray(found[0]), float(((matrix @ found - rows.T) ** 2).sum())
-
-
-def _fitted(pressure: NDArray[np.float64], volume: NDArray[np.float64]) -> float:
-    """Return the exponent that leaves the least sum of squares."""
-    curve = np.polynomial.Chebyshev.interpolate(
-        lambda exponents: np.array([_line(pressure, volume, n)[1] for n in exponents]),
-        DEGREE_BY_EXPONENT,
-        EXPONENTS,
-    )
-    roots = curve.deriv().roots()
-    real = roots.real[abs(roots.imag) < 1e-9]
-    n = float(min(np.clip([*EXPONENTS, *real], *EXPONENTS), key=curve))
-    if min(n - EXPONENTS[0], EXPONENTS[1] - n) < 1e-3:
-        fault = f"is {n:.3f} at best, an end of {EXPONENTS[0]:g} to {EXPONENTS[1]:g}"
-        hint = "the window has no compression, or noise: give a number"
-        raise inputs.faulty("exponent", fault, hint)
-    return n
+        number = inputs.finite("exponent", exponent)
+        if not 1.0 <= number <= 2.0:
+            raise inputs.rejected("exponent", number, "give 1.25 to 1.4, or one between 1 and 2")
+    figures = (cylinder._parts, cylinder.bore, ratio, strokes)
+    n, offsets = _core.polytropic_offsets(figures, theta_deg, rows, number)
+    how = f"{n:.3f} (fitted)" if fitted else f"{n:g} (given)"
+    return offsets, f"compression with n = {how}"

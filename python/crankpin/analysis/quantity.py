@@ -627,6 +627,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Tabled, Generic[Element, Values, Va
         """Number of values."""
         return math.prod(self.shape)
 
+    def __float__(self) -> float:
+        return float(np.asarray(self))
+
+    def __complex__(self) -> complex:
+        return complex(np.asarray(self))
+
+    def __format__(self, spec: str) -> str:
+        return format(np.asarray(self)[()], spec) if spec else str(self)
+
     dtype, flags, real, imag, T = (ArrayMember() for _ in range(5))
     max, min, sum, mean, std, any, all = (ArrayMember() for _ in range(7))
     argmax, argmin, round, item, tolist, copy = (ArrayMember() for _ in range(6))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PART_WORDS, PLANE_VECTORS, QUANTITIES, parts_of
 from crankpin._support.record import AbsentError
 
@@ -56,7 +57,8 @@ class Request(NamedTuple):
         """Return a request, or raise an InputError that names the argument at fault."""
         wanted = inputs.half_orders(orders)
         if wanted is not None and rtol is not None:
-            raise inputs.rejected("rtol", rtol, 'needs orders="auto"; leave out rtol or orders')
+            hint = Hint.of('needs `orders="auto"`; leave out `rtol` or `orders`')
+            raise inputs.rejected("rtol", rtol, hint)
         pairs = inputs.spectrum(spectrum)
         return cls(
             None if wanted is None else tuple(wanted),
@@ -138,9 +140,9 @@ class Request(NamedTuple):
         if self._has_torque or kind.planar:
             return
         if self.pairs is not None:
-            hint = "a force spectrum does not determine it; leave out `spectrum`"
+            hint = Hint.of("a force spectrum does not determine it; leave out `spectrum`")
         else:
-            hint = "it was not requested; give torque=True"
+            hint = Hint.of("it was not requested; give `torque=True`")
         name = quantity.replace("_", " ")
         raise inputs.faulty(name, "is not available", hint, AbsentError)
 

@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.frames import Tabled
-from crankpin._support.record import read_only
+from crankpin._support.quantities import STARS
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
+from crankpin.analysis.export import VALUES
 from crankpin.analysis.firing import Firing  # noqa: TC001 - a field
+from crankpin.analysis.labelled import Labelled
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.vanishing import Verdicts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.engine import Engine
 
 HIGHEST_DRAWN = 12
 """Highest order of a diagram whose orders are not given."""
 
 
-class StarDiagram(Keyed, Tabled):
+class StarDiagram(Keyed, Labelled):
     """Phase vectors of the cylinders of an engine, and their sums, order by order.
 
     At order k the gas torque of a cylinder whose firing top dead centre, its crankpin in line with
@@ -45,13 +47,16 @@ class StarDiagram(Keyed, Tabled):
     --------
     >>> import crankpin as cp
     >>> d = cp.star_diagram(cp.Engine.preset("v6-90-odd-fire"), orders=[0.5, 1, 1.5, 3])
-    >>> d.peak.round(6)
+    >>> d.sums.peak.round(6)
     array([0.      , 0.      , 2.296101, 4.242641])
     >>> d.verdicts[1.5], d.verdicts.vanishing
     ('remains', (0.5, 1))
     >>> d.major
     ()
     """
+
+    _along = ("order",)
+    _registry = STARS
 
     firing: Firing
     """Order and angles of firing."""
@@ -72,19 +77,27 @@ class StarDiagram(Keyed, Tabled):
         return self.firing.engine
 
     @property
-    def vectors(self) -> NDArray[np.complex128]:
+    def _own_coords(self) -> Mapping[str, Any]:
+        return {"cylinder": np.arange(1, len(self.engine) + 1)}
+
+    def _dims(self, quantity: str, what: str = VALUES) -> tuple[str, ...]:
+        return tuple(sorted(super()._dims(quantity, what), key=("cylinder",).count))
+
+    def _values(self, quantity: str) -> NDArray[np.complex128]:
+        return self._core["vectors"] if quantity == "vectors" else self._core["sums"]
+
+    @property
+    def vectors(self) -> Quantity[np.complex128]:
         """Vectors by cylinder number: (n_orders, n_cylinders)."""
-        return self._core["vectors"]
+        return self._quantity("vectors")
 
     @property
-    def sums(self) -> NDArray[np.complex128]:
-        """Sums of the vectors, (n_orders,): zero where proved to vanish, or within rounding."""
-        return self._core["sums"]
+    def sums(self) -> Quantity[np.complex128]:
+        """Sums of the vectors, (n_orders,): zero where proved to vanish, or within rounding.
 
-    @property
-    def peak(self) -> NDArray[np.float64]:
-        """Lengths of the sums: (n_orders,)."""
-        return read_only(np.abs(self.sums))
+        ``sums.peak`` are their lengths.
+        """
+        return self._quantity("sums")
 
     @cached_property
     def verdicts(self) -> Verdicts:
@@ -92,7 +105,7 @@ class StarDiagram(Keyed, Tabled):
         pairs = zip(self._core["vanishes"], self._core["remains"], strict=True)
         words = ("vanishes" if zero else "remains" if not_zero else "undecided"
                  for zero, not_zero in pairs)  # fmt: skip
-        return Verdicts(self.orders, tuple(words), tuple(map(bool, self.sums == 0.0)))
+        return Verdicts(self.orders, tuple(words), tuple(map(bool, self.read("sums") == 0.0)))
 
     @property
     def major(self) -> tuple[Order, ...]:
@@ -108,21 +121,21 @@ class StarDiagram(Keyed, Tabled):
         InputError
             If the order is not among ``orders``.
         """
-        return complex(self.sums[self._place(order)])
+        return complex(self.read("sums")[self._place(order)])
 
     @property
     def table(self) -> Table:
         """Length and direction of each sum, and what is proved of it."""
-        major, sums = self.major, self.sums
+        major, sums, peak = self.major, self.read("sums"), self.sums.peak
         words = [
             "major" if order in major else word
             for order, word in zip(self.orders, self.verdicts.words, strict=True)
         ]
-        longest = float(np.abs(self.vectors[0]).sum())
-        share = 100.0 * self.peak / longest if longest else np.zeros(len(sums))
+        longest = float(np.abs(self.read("vectors")[0]).sum())
+        share = 100.0 * peak / longest if longest else np.zeros(len(sums))
         columns = (
             Column("order", self.orders, digits=10),
-            Column("sum", self.peak),
+            Column("sum", peak),
             Column("share", share, "%", decimals=1),
             Column("direction", np.angle(sums, deg=True), "°", decimals=1),
             Column("", tuple(words)),

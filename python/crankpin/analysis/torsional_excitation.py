@@ -9,10 +9,10 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.messages import suppressed
 from crankpin._support.quantities import EXCITATIONS, PART_WORDS
 from crankpin._support.record import changed, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.contributions import of_cylinders
 from crankpin.analysis.labelled import Labelled
 from crankpin.analysis.request import engine_core

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin._support.tables import Table
@@ -38,15 +39,16 @@ def waveform(
     """Return the waveform of an engine; :meth:`Engine.waveform` documents the arguments."""
     theta = inputs.crank_angles(theta_deg)
     if orders is None and rtol is not None:
-        raise inputs.rejected(
-            "rtol", rtol, 'needs orders="auto"; exact kinematics has no tolerance'
-        )
+        hint = Hint.of('needs `orders="auto"`; exact kinematics has no tolerance')
+        raise inputs.rejected("rtol", rtol, hint)
     if orders is None and spectrum is not None:
         raise inputs.rejected(
             "orders",
             None,
-            "exact kinematics needs the slider-crank; "
-            'give orders, or orders="auto", with a spectrum',
+            Hint.of(
+                "exact kinematics needs the slider-crank; give `orders`, or "
+                '`orders="auto"`, with a `spectrum`'
+            ),
         )
     request = Request.checked(
         orders="auto" if orders is None else orders,

@@ -116,10 +116,11 @@ class _Warnings:
         self._arguments, self._of_units = arguments, False
 
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
-        of_units = checks.UNITS_ASSUMED in str(message)
+        text = message.args[0] if isinstance(message, Warning) else message
+        of_units = getattr(text, "closing", "") == checks.UNITS_ASSUMED
         if not (of_units and self._of_units):
             options, typed = self._arguments.options, vars(self._arguments)
-            outputs.say(f"warning: {warning_in_options(str(message), options, typed)}")
+            outputs.say(f"warning: {warning_in_options(text, options, typed)}")
         self._of_units |= of_units
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames
+from crankpin._support.messages import hint_of
 from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
@@ -308,10 +309,10 @@ def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOpti
     except InputError as error:
         if error.argument != "path" or error.hint is None:
             raise
-        fault = str(error)[len("path ") : -len(f": {error.hint}")]
+        fault, hint = inputs.fault_of(error), hint_of(error)
         if fault.startswith("= "):
-            raise rejected(option, path, error.hint) from None
-        raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, error.hint) from None
+            raise rejected(option, path, hint) from None
+        raise inputs.faulty(repr(labels.cut(Path(path).name)), fault, hint) from None
 
 
 def _read_as(call: Given, strokes: int) -> Any:  # noqa: ANN401 - FileOptions, of one or several

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from crankpin._support import labels
+from crankpin._support.messages import Hint, WarningText, hint_of
 from crankpin.cli.options import PROG
 from crankpin.model import checks
 
@@ -13,18 +13,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from crankpin._core import InputError
+    from crankpin._support.messages import Name
     from crankpin.cli.options import Option
 
-BUILDER = re.compile(
-    r"\bEngine\.(?:from_)?(lists|banks|firing_order|inline|vee|flat|boxer|radial)\b"
-)
-"""A builder of the library, by the name of its kind."""
-BARE = re.compile(r"(?<![\w.(-])[a-z]+(?:_[a-z]+)+(?![\w(=.])")
-"""A name of several words that stands alone."""
-CALL = re.compile(r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)')
-"""An argument with its value, ``orders=[1, 2]``."""
-BEGINS = re.compile(r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))")
-"""What a warning is about."""
+BUILDERS = {
+    f"Engine.{'from_' * (kind in ('lists', 'banks', 'firing_order'))}{kind}": kind.replace("_", "-")
+    for kind in ("lists", "banks", "firing_order", "inline", "vee", "flat", "boxer", "radial")
+}
+"""Method that builds an engine → the kind that ``new`` calls it."""
+BRACKETS = str.maketrans("", "", '[]()"')
+"""What Python writes about values, and a shell does not."""
+UNITS_TYPED = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
 
 
 def error_in_options(
@@ -44,7 +43,7 @@ def error_in_options(
     if error.argument is None or error.hint is None:
         return error
     options = [*options]
-    fault = str(error)[len(error.argument) : -len(error.hint)]
+    hint, fault = hint_of(error), str(error)[len(error.argument) : -len(error.hint)]
     name = error.argument.partition("[")[0].partition(".")[0]
     # One that is left out is named only where that is the fault.
     among = [
@@ -61,7 +60,7 @@ def error_in_options(
         error.argument = one.label + error.argument[len(name) :]
         if fault.startswith(" = "):
             error.value = fault[len(" = ") : -len(": ")]
-    error.hint = BARE.sub(lambda match: _label(match[0], options), _hint(error.hint, options))
+    error.hint = _in_shell(hint, options)
     error.args = (f"{error.argument}{fault}{error.hint}",)
     return error
 
@@ -72,25 +71,35 @@ def _fault(value: str | None, typed: object) -> str | None:
         return " is left out: "
     if typed is True:
         return " is set: "
-    several = isinstance(typed, str) and re.search(r"[,:]", typed) is not None
+    several = isinstance(typed, str) and ("," in typed or ":" in typed)
     if not isinstance(typed, str) or (several and "[" not in str(value)):
         return None  # which of the values it is says the library
     return f" = {labels.cut(typed)}: "
 
 
-def warning_in_options(message: str, options: Iterable[Option], typed: Mapping[str, object]) -> str:
+def warning_in_options(text: str, options: Iterable[Option], typed: Mapping[str, object]) -> str:
     """Return a warning of the library with the names of arguments and units of the shell."""
+    if not isinstance(text, WarningText):
+        return text
     # What a new engine is made of is an option or its default; of others it may be in the file.
     new = "kind" in typed
-    typed_options = [option for option in options if new or typed.get(option.dest) is not None]
+    every = [*options]
+    chosen = [option for option in every if new or typed.get(option.dest) is not None]
     if typed.get("piston_mass") is not None:  # Of which the reciprocating mass is computed.
-        typed_options = [option for option in typed_options if option.dest != "reciprocating_mass"]
-    named = BEGINS.sub(lambda match: _label(match[0], typed_options), message)
-    named = _hint(named, [*options])
-    if named == message and not new:  # a figure of an engine file, which has no units
-        return message
-    units = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
-    return named.replace(checks.UNITS_ASSUMED, units)
+        chosen = [option for option in chosen if option.dest != "reciprocating_mass"]
+    entries = [
+        entry._replace(
+            about=_label(entry.about, chosen),
+            fault=_in_shell(Hint(entry.fault), every),
+            hint=Hint(_in_shell(entry.hint, every)),
+        )
+        for entry in text.entries
+    ]
+    closing = text.closing
+    # A figure of an engine file has no units.
+    if closing == checks.UNITS_ASSUMED and (new or entries != [*text.entries]):
+        closing = UNITS_TYPED
+    return WarningText(entries, closing)
 
 
 def _label(argument: str, options: Iterable[Option]) -> str:
@@ -98,22 +107,19 @@ def _label(argument: str, options: Iterable[Option]) -> str:
     return next((option.label for option in options if option.gives(argument)), argument)
 
 
-def _hint(text: str, options: list[Option]) -> str:
-    """Return a text with arguments, ``orders=[1, 2]``, as they are typed in a shell."""
+def _in_shell(hint: Hint, options: list[Option]) -> str:
+    """Return a hint with its names as they are typed in a shell."""
 
-    def hint(match: re.Match[str]) -> str:
-        name, value = match.groups()
-        flags = [option for option in options if option.gives(name)]
-        if value in ("True", "False"):
+    def typed(name: Name) -> str:
+        if name.name in BUILDERS:
+            return f"{PROG} new {BUILDERS[name.name]}"
+        flags = [option for option in options if option.gives(name.name)]
+        if name.value in ("True", "False"):
             # One that has another name than its argument sets that to False.
-            flags = [flag for flag in flags if (flag.dest == name) is (value == "True")]
-            return flags[0].label if flags else match[0]
-        plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
-        return f"{flags[0].label} {plain}" if flags else match[0]
+            flags = [flag for flag in flags if (flag.dest == name.name) is (name.value == "True")]
+            return flags[0].label if flags else name.text
+        if not flags:
+            return name.text
+        return f"{flags[0].label} {name.value.translate(BRACKETS).replace(', ', ',')}".rstrip()
 
-    return BUILDER.sub(_kind, CALL.sub(hint, text))
-
-
-def _kind(builder: re.Match[str]) -> str:
-    """Return the command that builds an engine as a method does."""
-    return f"{PROG} new {builder[1].replace('_', '-')}"
+    return hint.named(typed)

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, units
-from crankpin._support.warnings import suppressed
+from crankpin._support.messages import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.options import PROG, command, keyword, option, rejected
 from crankpin.model import engine_files, presets

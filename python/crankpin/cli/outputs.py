@@ -13,9 +13,9 @@ import numpy as np
 
 from crankpin._support import files, labels, units
 from crankpin._support.frames import FIRST, SHOWN, Frames
+from crankpin._support.messages import without_controls
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import changed
-from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from pathlib import Path

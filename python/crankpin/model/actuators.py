@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import warn
 from crankpin._support.record import Input
-from crankpin._support.warnings import warn
 from crankpin.model import checks
 from crankpin.model.mounts import _vector
 
@@ -92,7 +93,7 @@ class Actuator(Input):
         checks.point("at", at)
         self.__dict__.update(fields, damping_ratio=damping)
         if self.stroke is not None and self.stroke > LONGEST_STROKE:
-            warn(f"stroke = {self.stroke:g} m: was it given in millimetres?")
+            warn("stroke", f"= {self.stroke:g} m", "was it given in millimetres?")
 
     def stroke_of(self, force: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the displacement of the mass that a force on the powertrain takes, m.
@@ -148,8 +149,9 @@ class Actuator(Input):
 
     def _motor_share(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the motor's force over that on the powertrain, where this does not move."""
-        ratio = (self.resonance or 0.0) / frequency
-        return np.asarray(1.0 - ratio**2 - 2j * self.damping_ratio * ratio)
+        flat = np.ascontiguousarray(frequency).ravel()
+        shares = _core.motor_shares(self.resonance or 0.0, self.damping_ratio, flat)
+        return shares.reshape(frequency.shape)
 
     def largest_force(self, frequency: ArrayLike) -> NDArray[np.float64]:
         """Return the largest force on the powertrain that motor and stroke allow, N.

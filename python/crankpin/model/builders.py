@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, TypeVar
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin._support.parameters import documented
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
@@ -555,11 +556,13 @@ class Builders(EngineData):
         if shared_pins is not None and inputs.flag("shared_pins", shared_pins):
             even = rule == "even" and intervals_deg is None
             if bank_angle_deg is None or not even:
-                hint = "it is of vees, and needs bank_angle_deg"
+                hint = Hint.of("it is of vees, and needs `bank_angle_deg`")
                 hint = (
                     hint
                     if even
-                    else "they have intervals of their own; leave out rule and intervals_deg"
+                    else Hint.of(
+                        "they have intervals of their own; leave out `rule` and `intervals_deg`"
+                    )
                 )
                 raise inputs.rejected("shared_pins", shared_pins, hint)
         one = one_of(cylinder)
@@ -771,7 +774,7 @@ class Builders(EngineData):
             }  # fmt: skip
             return _by_side_rods(cls, lower, above, lead_deg, **names)
         if distance is None:
-            hint = "give the distance of the cranks, m, or one_crankshaft=True"
+            hint = Hint.of("give the distance of the cranks, m, or `one_crankshaft=True`")
             raise inputs.rejected("distance", None, hint)
         lead = inputs.angle("lead_deg", lead_deg)
         later = lead[1:] if lead.startswith("-") else f"-{lead}"

@@ -14,12 +14,14 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.warnings import warn
+from crankpin._support.messages import Entry, Hint, of_core, warn, warn_of, warn_of_core
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
+
+    _Entry = tuple[str, str, Sequence[tuple[str, str | None]]]
 
 
 EQUAL_INTERVALS = 1e-6
@@ -76,25 +78,26 @@ def place(core: _core.Engine, name: str, *at: float | None, middle: float | None
     With ``middle`` 0 they are places beside the crank or above it, or lengths. None is no place.
     """
     values = (value for value in at if value is not None)
-    texts = (_core.figure_warnings(core, "m", name, value, middle) for value in values)
-    _report(next(filter(None, texts), []))
+    entries = (_core.figure_warnings(core, "m", name, value, middle) for value in values)
+    _report(next(filter(None, entries), []))
 
 
 def masses(core: _core.Engine, **given: float) -> None:
     """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
     warnings_of = (_core.figure_warnings(core, "kg", name, mass) for name, mass in given.items())
-    _report([text for texts in warnings_of for text in texts])
+    _report([entry for entries in warnings_of for entry in entries])
 
 
 def oil(mass: float, beside: float) -> None:
     """Warn of more oil in a crankpin than a part of the masses beside it can be, kg."""
     if mass > LARGEST_OIL * beside > 0.0:
-        _report([f"oil = {mass:g} kg beside {beside:g} kg: was it given in grams?"])
+        hint = "was it given in grams?"
+        _report([("oil", f"= {mass:g} kg beside {beside:g} kg", [(hint, None)])])
 
 
 def pressure(values: NDArray[np.float64]) -> None:
     """Warn of cylinder pressures in bar or kPa, or against the atmosphere."""
-    _warn_each(_core.pressure_warnings(values.ravel()))
+    warn_of_core(_core.pressure_warnings(values.ravel()))
 
 
 def about_tdc(theta_deg: NDArray[np.float64], period_deg: float) -> NDArray[np.float64]:
@@ -113,32 +116,32 @@ def far_peak(
 
 def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
     """Warn of pressure whose peak is far from the firing top dead centre."""
-    _warn_each(_core.peak_warnings(theta_deg, values, period_deg))
+    warn_of_core(_core.peak_warnings(theta_deg, values, period_deg))
 
 
 def cycle(core: _core.Cycle) -> None:
     """Warn of the pressures of a cycle, and of a peak far from the firing top dead centre."""
-    _warn_each(_core.cycle_warnings(core))
+    warn_of_core(_core.cycle_warnings(core))
 
 
 def work(core: _core.Cycle, mean_pressure: float) -> None:
     """Warn of pressure that takes more work from the crank than an engine does."""
-    _warn_each(_core.work_warnings(core, mean_pressure))
+    warn_of_core(_core.work_warnings(core, mean_pressure))
 
 
 def gas(core: _core.Engine) -> None:
     """Warn of the pressure in an engine's cylinders, whose cycles are asked alone."""
-    _warn_each(_core.gas_warnings(core))
+    warn_of_core(_core.gas_warnings(core))
 
 
 def absolute(name: str, pressure: float) -> None:
     """Warn of the pressure of crankcase or intake in other units; 0 is a vacuum."""
-    _warn_each(_core.absolute_warnings(name, pressure))
+    warn_of_core(_core.absolute_warnings(name, pressure))
 
 
 def body(figures: tuple[float, Any, Any]) -> None:
     """Warn of a tensor that no body has, and of figures in other units."""
-    _warn_each(_core.tensor_warnings(figures))
+    warn_of_core(_core.tensor_warnings(figures))
     _report(_core.body_warnings(figures))
 
 
@@ -157,14 +160,8 @@ def point(name: str, at: tuple[float, float, float]) -> None:
     _report(_core.point_warnings(name, at))
 
 
-def _report(texts: list[str]) -> None:
-    if texts:
-        warn(f"{'; '.join(texts)} {UNITS_ASSUMED}")
-
-
-def _warn_each(texts: list[str]) -> None:
-    for text in texts:
-        warn(text)
+def _report(entries: Sequence[_Entry]) -> None:
+    warn_of(of_core(entries), UNITS_ASSUMED)
 
 
 def angles(**given: object) -> None:
@@ -174,7 +171,8 @@ def angles(**given: object) -> None:
         numbers = numbers if isinstance(numbers, (list, tuple)) else [numbers]
         hints = filter(None, (_near_miss(value) for value in numbers))
         if hint := next(hints, None):
-            warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")
+            meant = "if that is meant, give it as text"
+            warn(name, f"= {inputs.shorten(values)}: {hint}; {meant}")
         radians(name, values, numbers)
 
 
@@ -182,10 +180,8 @@ def radians(name: str, angles: object, values: Iterable[Any]) -> None:
     """Warn of doubles that are parts of a turn in radians; ``given`` is shown in their place."""
     degrees = _core.radians([float(value) for value in values if isinstance(value, float)])
     if degrees:
-        warn(
-            f"{name} = {inputs.shorten(angles)}: was it given in radians? Angles are degrees here: "
-            f"{degrees}"
-        )
+        hint = Hint("was it given in radians? Angles are degrees here:")
+        warn_of([Entry(name, f"= {inputs.shorten(angles)}", hint)], degrees)
 
 
 def _near_miss(value: object) -> str | None:
@@ -203,7 +199,7 @@ def pin_split(core: _core.Engine, split: str) -> None:
     split
         Left pin minus right pin, as the core takes it.
     """
-    _warn_each(_core.pin_split_warnings(core, split))
+    warn_of_core(_core.pin_split_warnings(core, split))
 
 
 def other_bank(odd_bank: str) -> str:
@@ -230,10 +226,9 @@ def odd_bank(bank: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     if largest < LARGEST_SPLIT or smaller > largest / 2.0:
         return False
     how = f"split by {smaller:.6g}°" if smaller else "shared"
-    warn(
-        f'odd_bank = "{bank}": this firing order needs pins split by {largest:.6g}°; with '
-        f'odd_bank="{other_bank(bank)}" pins are {how}. Makers differ in the side of cylinder 1'
-    )
+    needs = f'= "{bank}": this firing order needs pins split by {largest:.6g}°'
+    fault = Hint.of(f'{needs}; with `odd_bank="{other_bank(bank)}"` pins are {how}')
+    warn("odd_bank", fault, "makers differ in the side of cylinder 1")
     return True
 
 
@@ -266,7 +261,7 @@ def split_pins(
             if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=EQUAL_INTERVALS)
         )
         fires = f"fire at {'-'.join(f'{interval:.6g}' for interval in intervals[:count])}°"
-    warn(
-        f"firing_order = {labels.cut(str(typed))}: even firing needs crankpins split by "
-        f"{largest:.6g}°; shared ones, which shared_pins=True gives, {fires}"
-    )
+    needs = f"even firing needs crankpins split by {largest:.6g}°"
+    shared_ones = Hint.of(f"shared ones, which `shared_pins=True` gives, {fires}")
+    fault = Hint(f"= {labels.cut(str(typed))}: {needs}; ", shared_ones)
+    warn("firing_order", fault)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin._support.parameters import documented
 from crankpin.model.cylinder import Cylinder
 
@@ -365,7 +366,7 @@ class ComputedCycles:
                 "excess_air", stoichiometric_ratio=stoichiometric_ratio, heating_value=heating_value
             )
         if (rpm is None) != (wall_temperature is None):
-            hint = "heat loss needs both it and wall_temperature"
+            hint = Hint.of("heat loss needs both it and `wall_temperature`")
             raise inputs.rejected("rpm", rpm, hint)
         two = inputs.strokes(strokes) == 2
         closes, opens = (-115.0, 105.0) if two else (-140.0, 130.0)
@@ -474,6 +475,6 @@ def area(cylinder: Cylinder) -> float:
     if not isinstance(cylinder, Cylinder):
         raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     if cylinder.bore is None:
-        hint = "gas pressure needs it; give bore=…, m, or cylinder.replace(bore=…)"
+        hint = Hint.of("gas pressure needs it; give `bore=…`, m, or cylinder.replace(bore=…)")
         raise inputs.rejected("bore", None, hint)
     return math.pi / 4.0 * cylinder.bore**2

@@ -13,10 +13,10 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files, odd_cycles
 from crankpin.model.computed_cycles import ENDS, ComputedCycles, area
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import files, inputs
+from crankpin._support.messages import Hint, warn
 from crankpin._support.parameters import documented
-from crankpin._support.warnings import warn
 from crankpin.model import table_files
 
 if TYPE_CHECKING:
@@ -299,7 +299,7 @@ def _check_heads(text: Columns) -> None:
         first, second = text.places[:2]
         fault = f"{first} and {second} are headed {inputs.shorten(heads[0])} and "
         fault += inputs.shorten(heads[1])
-        hint = f"angle or time comes first; give columns=({second}, {first})"
+        hint = Hint.of(f"angle or time comes first; give `columns=({second}, {first})`")
         raise inputs.faulty("columns", fault, hint)
 
 
@@ -313,18 +313,19 @@ def _of_cycles(text: Columns) -> Columns:
         if len(values) > 1 and _correlation(first, values) > SIMILAR:
             if not rows.all():
                 at = text.where(int(np.flatnonzero(~rows)[0]), k)
-                hint = "give one in each line, or name the columns of the other cycles, columns=…"
+                columns = "name the columns of the other cycles, `columns=…`"
+                hint = Hint.of(f"give one in each line, or {columns}")
                 raise inputs.faulty("path", f"has no number in {at}", hint)
             chosen.append(k)
         elif text.headed and _PRESSURE.search(heads[k]):
             others.append(text.places[k])
     if others:
         columns_text = _listed([str(k) for k in others])
-        warn(
-            f"columns {columns_text} are headed as pressure, but unlike column {text.places[1]}, "
-            "and left out: columns=… names those of one cylinder, and Traces.load_cylinders reads "
-            "several"
+        unlike = f"but unlike column {text.places[1]}, and left out"
+        hint = Hint.of(
+            "`columns=…` names those of one cylinder, and Traces.load_cylinders reads several"
         )
+        warn(f"columns {columns_text}", f"are headed as pressure, {unlike}", hint)
     return text.of(chosen)
 
 
@@ -364,10 +365,12 @@ def _ascending(text: Columns, half: float, *, ours: bool) -> Columns:
         jumps_text = _listed(
             [f"{where[k]:.10g} in lines {lines[k - 1]} and {lines[k]}" for k in jumps]
         )
-        warn(f"column {text.places[0]} has twice {jumps_text}: pressure is taken to jump there")
+        about = f"column {text.places[0]}"
+        warn(about, f"has twice {jumps_text}", "pressure is taken to jump there")
     if again.any():
         jumps_text = _listed([str(k) for k in lines[again]])
-        warn(f"the file has lines twice, {jumps_text} as the one before: they are left out")
+        fault = f"has lines twice, {jumps_text} as the one before"
+        warn("the file", fault, "they are left out")
     return text._replace(numbers=text.numbers[~again], lines=lines[~again])
 
 
@@ -402,10 +405,8 @@ def _warn_of_gaps(text: Columns, half: float) -> None:
                 for k in gaps
             ]
         )
-        warn(
-            f"column {text.places[0]} has nothing between {angles_text}: lines, or teeth of the "
-            "encoder, are missing, and pressure is interpolated there"
-        )
+        hint = "lines, or teeth of the encoder, are missing, and pressure is interpolated there"
+        warn(f"column {text.places[0]}", f"has nothing between {angles_text}", hint)
 
 
 def _listed(places: Sequence[str]) -> str:
@@ -436,16 +437,16 @@ def _cycles(
             return theta, pressures, columns
         if round(period / step) < 1:
             fault = f"has {step:.3g}° from one point to the next"
-            raise inputs.faulty("path", fault, "are units and recorded_rpm right?")
+            hint = Hint.of("are units and `recorded_rpm` right?")
+            raise inputs.faulty("path", fault, hint)
         grid, rows = _resampled(theta, pressures, period, count)
         left = bool(theta[-1] - theta[0] > count * period + step / 2.0)
         how = f"in a row{columns and ' and columns'}"
         rises = len(_rises(theta, pressures[0]))
         if rises and abs(rises - count) > max(1.0, RARE * count):
-            warn(
-                f"pressure rises {rises} times in the file, which has {count} cycles of {period:g}°"
-                ": are angle_unit and strokes right?"
-            )
+            fault = f"rises {rises} times in the file, which has {count} cycles of {period:g}°"
+            hint = Hint.of("are `angle_unit` and `strokes` right?")
+            warn("pressure", fault, hint)
     return grid, rows, how + (", an incomplete one left out" if left else "")
 
 
@@ -472,7 +473,7 @@ def _blocks(
     between = [k for k in range(1, len(angles) - 1) if k not in whole]
     if between:
         lines_text = _listed([str(text.lines[first[k]]) for k in between])
-        warn(f"blocks of lines that begin in line {lines_text} are no whole cycles and left out")
+        warn("blocks of lines", f"begin in line {lines_text}", "no whole cycles, they are left out")
     usual = float(np.median([len(angles[k]) for k in whole]))
     grid = min((angles[k] for k in whole), key=lambda theta: abs(len(theta) - usual))
     step = period / max(len(grid), 1)
@@ -543,26 +544,24 @@ def _speed(
     if len(times) < 3:
         if stated is None:
             fault = "has fewer than three cycles over time"
-            raise inputs.faulty("path", fault, "give the crank speed, recorded_rpm=…")
+            hint = Hint.of("give the crank speed, `recorded_rpm=…`")
+            raise inputs.faulty("path", fault, hint)
         return stated
     usual = float(np.median(np.diff(times)))
     counts = np.maximum(1.0, np.round(np.diff(times) / usual))
     of_one = float(np.polyfit(np.append(0.0, np.cumsum(counts)), times, 1)[0])
     rpm = period / 6.0 / of_one
     if not RECORDED_SPEEDS[0] < rpm < RECORDED_SPEEDS[1]:
-        warn(
-            f"compressions of the record follow each other at {rpm:.4g} rpm; is the unit of "
-            "time right?"
-        )
+        fault = f"follow each other at {rpm:.4g} rpm"
+        warn("compressions of the record", fault, "is the unit of time right?")
     of_each = usual * counts / np.diff(times) - 1.0
     if (odd := np.flatnonzero(np.abs(of_each) > UNEVEN)).size:
         changes_text = _listed([f"{100.0 * of_each[k]:+.1f} % after {times[k]:.6g} s" for k in odd])
-        warn(f"the speed of the record is not constant, as is assumed: {changes_text}")
+        warn("the speed of the record", f"changes, {changes_text}", "a constant one is assumed")
     if stated is not None and abs(rpm - stated) > SPEEDS * stated:
-        warn(
-            f"recorded_rpm = {stated:g}: compressions of the record follow each other at {rpm:.5g} "
-            "rpm, which is taken; are strokes and unit of time right?"
-        )
+        measured = f"compressions of the record follow each other at {rpm:.5g} rpm, which is taken"
+        hint = Hint.of("are `strokes` and unit of time right?")
+        warn("recorded_rpm", f"= {stated:g}: {measured}", hint)
     return rpm
 
 
@@ -657,8 +656,11 @@ def _is_gauge(stated: bool | None, head: str) -> tuple[bool, str]:
         raise inputs.rejected(
             "gauge",
             None,
-            "the file does not state whether pressure is gauge or absolute; write one of these "
-            "words into its header, or give gauge=True, or gauge=False for absolute pressure",
+            Hint.of(
+                "the file does not state whether pressure is gauge or absolute; write one "
+                "of these words into its header, or give `gauge=True`, or `gauge=False` "
+                "for absolute pressure"
+            ),
         )
     return is_gauge, "header"
 

@@ -11,10 +11,10 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Table
-from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:

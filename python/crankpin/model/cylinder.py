@@ -10,9 +10,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input
-from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -307,7 +307,7 @@ class Cylinder:
             fields = {name: getattr(self, name) for name in ("crank_radius", "pin_offset", "bore")}
             whole = {"rod": self.rod, "piston_mass": self.piston_mass} | fields | changes
             if whole["piston_mass"] is None:
-                hint = "give piston_mass too: it is not known what the rod's part was"
+                hint = Hint.of("give `piston_mass` too: it is not known what the rod's part was")
                 raise inputs.rejected("rod", whole["rod"], hint)
             flags = {name: getattr(self, name) for name in ("dummy", "side_rods")}
             cylinder = Cylinder.from_rod(**{k: v for k, v in whole.items() if k not in flags})

@@ -11,9 +11,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import files, inputs, labels
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, read_only
-from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
 from crankpin.model import loads as periodic
 from crankpin.model import shafts as rotating
@@ -352,7 +352,7 @@ class EngineData:
         """
         banks = self._banks_of_one_crank("throws_deg")
         if len(banks) > 2:
-            raise self._of_banks("throws_deg", "one or two are needed; see pin_deg")
+            raise self._of_banks("throws_deg", Hint.of("one or two are needed; see `pin_deg`"))
         pins = self.pin_deg[self._along(next(iter(banks.values())))]
         return read_only(_reduced(pins - pins[0]))
 
@@ -375,7 +375,9 @@ class EngineData:
     def _banks_of_one_crank(self, name: str) -> dict[str, tuple[int, ...]]:
         """Return the banks; directions of crankpins on several crankshafts do not compare."""
         if (count := len(set(self._core.cranks[1]))) > 1:
-            reason = f"its cylinders are on {count} crankshafts; one is needed, see pin_deg"
+            reason = Hint.of(
+                f"its cylinders are on {count} crankshafts; one is needed, see `pin_deg`"
+            )
             raise self._undefined(name, reason)
         return self.banks
 

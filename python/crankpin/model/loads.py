@@ -12,8 +12,8 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import Hint, warn
 from crankpin._support.record import Input, read_only
-from crankpin._support.warnings import warn
 from crankpin.model.shafts import listed_items
 
 if TYPE_CHECKING:
@@ -172,7 +172,8 @@ class PeriodicLoad(Input):
                 raise inputs.rejected("scaling", self.scaling, hint)
             return tuple(inputs.vector("rpm", rpm).tolist())  # type: ignore[arg-type] # listed
         if self.scaling == "independent":
-            hint = 'amplitudes do not depend on it; give scaling="speed squared", or several speeds'
+            other = 'give `scaling="speed squared"`, or several speeds'
+            hint = Hint.of(f"amplitudes do not depend on it; {other}")
             raise inputs.rejected("rpm", rpm, hint)
         return inputs.finite("rpm", rpm)
 
@@ -413,8 +414,7 @@ def _warn_of_jump(name: str, rows: np.ndarray[Any, Any]) -> None:
         inside = np.abs(np.diff(row)).max(initial=0.0)
         jump = abs(row[0] - row[-1])
         if jump > _LARGEST_STEP * inside > 0.0:
-            warn(
-                f"{name} jumps from {row[-1]:g} to {row[0]:g} where its last sample is followed by "
-                "the first; samples are to cover its period once"
-            )
+            where = "where its last sample is followed by the first"
+            fault = f"jumps from {row[-1]:g} to {row[0]:g} {where}"
+            warn(name, fault, "samples are to cover its period once")
             return

@@ -8,8 +8,8 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import suppressed
 from crankpin._support.record import Input
-from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:

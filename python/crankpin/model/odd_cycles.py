@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankpin._support import inputs, units
-from crankpin._support.warnings import warn
+from crankpin._support.messages import Hint, warn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,7 +58,7 @@ LEAST_MATCH = 0.5
 """Part of the squares of a compression that the best shift must explain."""
 UNLIKE = 0.05
 """Deviation from the median, over its range, from which a cycle is odd."""
-BEGINNING = "measured pressure: "
+ABOUT = "measured pressure:"
 """Beginning of the warning of spikes and odd cycles."""
 MOST_CYCLES_NAMED = 3
 """Number of cycles that a warning names; of more it gives the count."""
@@ -319,7 +319,8 @@ def report(oddities: Oddities) -> None:
     ):
         rest = len(ordered) - MOST_CYCLES_NAMED
         names = ", ".join(map(str, ordered[:MOST_CYCLES_NAMED]))
-        warn(
-            f"{BEGINNING}{names}{f' and {rest} more' if rest > 0 else ''}; crankpin.prepare_trace "
-            'replaces spikes, spikes="replace", and leaves odd cycles out, leave_out="odd"'
+        hint = Hint.of(
+            'crankpin.prepare_trace replaces spikes, `spikes="replace"`, and leaves odd cycles '
+            'out, `leave_out="odd"`'
         )
+        warn(ABOUT, f"{names}{f' and {rest} more' if rest > 0 else ''}", hint)

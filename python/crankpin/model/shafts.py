@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.record import Input
-from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -76,9 +76,8 @@ class Unbalance(Input):
         object.__setattr__(self, "amount", inputs.finite("amount", amount))
         object.__setattr__(self, "z", inputs.finite("z", z))
         if self.amount < 0.0:
-            raise inputs.rejected(
-                "amount", self.amount, "give zero or more; angle_deg turns it round"
-            )
+            hint: str = Hint.of("give zero or more; `angle_deg` turns it round")
+            raise inputs.rejected("amount", self.amount, hint)
         checks.unbalance(self.amount)
         angle = inputs.angle("angle_deg", angle_deg)
         object.__setattr__(self, "angle_deg", inputs.degrees(angle))

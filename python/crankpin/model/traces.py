@@ -12,10 +12,10 @@ import numpy as np
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import is_suppressed, suppressed, warn
 from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, Input, changed, item_key, read_only
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import is_suppressed, suppressed, warn
 from crankpin.model import checks, cycle_files, odd_cycles
 from crankpin.model.cycle import Cycle
 
@@ -126,15 +126,15 @@ class Traces(Tabled, Input):
             object.__setattr__(self, field, value)
         least = float(rows.min())
         raised = -least if least < -ATMOSPHERE else 0.0
-        if not is_suppressed(odd_cycles.BEGINNING):
+        if not is_suppressed(odd_cycles.ABOUT):
             odd_cycles.report(self._oddities)
             rows = self._oddities.repaired(rows)
             least = float(rows.min())
         if least < -ATMOSPHERE:
-            warn(f"pressure is {least:g} Pa at its least: {OFFSET}")
+            warn("pressure", f"is {least:g} Pa at its least", OFFSET)
         else:
             checks.pressure(rows)
-        with suppressed("pressure "):
+        with suppressed("pressure"):
             mean = Cycle(theta, self.pressure.mean(axis=0) + raised, strokes, name, None, origin)
         self.__dict__.update(_raised=raised, _mean=mean)
 
@@ -391,7 +391,7 @@ class Traces(Tabled, Input):
         chosen = inputs.explicit_half_orders(orders)
         below = inputs.number("crankcase", crankcase)
         checks.absolute("crankcase", below)
-        with suppressed("crankcase ="):
+        with suppressed("crankcase"):
             phasors = [
                 cycle.torque_harmonics(cylinder, chosen, crankcase=below + self._raised)
                 for cycle in self._raised_cycles()

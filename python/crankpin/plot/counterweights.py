@@ -9,6 +9,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.counterweights import Counterweights
@@ -92,7 +93,7 @@ def _counterweights(
 
 def _summary(result: Counterweights, figure: object, style: dict[str, Any]) -> Drawn:
     if "label" in style:
-        hint = 'kind="summary" shows one result; give kind="weights" and ax'
+        hint = Hint.of('`kind="summary"` shows one result; give `kind="weights"` and `ax`')
         raise inputs.rejected("label", style["label"], hint)
     before = over_square(result.engine, [1])[1]
     vectors = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]

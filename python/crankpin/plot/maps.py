@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._support import inputs, units
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Drawn, Panels, label_bar, label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
@@ -91,8 +92,8 @@ def order_map(
     name = drawn_quantity(quantity, nonzero_in(sweep.total))
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 1 or x not in (None, *dims):
-        swept = ", ".join(sweep.coords)
-        hint = f'needs one swept number, not {swept}; give kind="curves"'
+        swept = ", ".join(f"`{name}`" for name in sweep.coords)
+        hint = Hint.of(f'needs one swept number, not {swept}; give `kind="curves"`')
         raise inputs.rejected("kind", "orders", hint)
     (along,) = dims
     orders = sweep.orders or (1,)  # zero, where nothing shakes
@@ -123,8 +124,8 @@ def _axes_of(sweep: Sweep, x: str | None) -> tuple[str, str]:
     """Return the two numeric dimensions, the one along x first."""
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 2:
-        swept = ", ".join(sweep.coords)
-        hint = f'needs two swept numbers, not {swept}; give kind="curves"'
+        swept = ", ".join(f"`{name}`" for name in sweep.coords)
+        hint = Hint.of(f'needs two swept numbers, not {swept}; give `kind="curves"`')
         raise inputs.rejected("kind", "map", hint)
     along = along_x(sweep, x, dims)
     if along == "engine":

@@ -210,13 +210,11 @@ def _axes(
     corners = [places[name] for name in powertrain.static().support_polygon]
     static, dynamic = result.roll_stiffness, result.dynamic_roll_stiffness
     is_dynamic = abs(dynamic - static) > SAME_AXIS * static
+    dynamic_foot, dynamic_elastic = map(result.read, ("dynamic_elastic_foot", "dynamic_elastic"))
     lines = [
-        ("torque roll axis", cg, result.torque_roll),
-        ("elastic roll axis", result.elastic_foot, result.elastic),
-        *(
-            [("with dynamic stiffness", result.dynamic_elastic_foot, result.dynamic_elastic)]
-            * is_dynamic
-        ),
+        ("torque roll axis", cg, result.read("torque_roll")),
+        ("elastic roll axis", result.read("elastic_foot"), result.read("elastic")),
+        *([("with dynamic stiffness", dynamic_foot, dynamic_elastic)] * is_dynamic),
     ]
     distance = units.shown(units.figure(1e3 * result.distance, "mm", 3))
     words = f"{rounded(result.angle_deg)}° and {distance} between the axes"

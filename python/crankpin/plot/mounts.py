@@ -69,7 +69,10 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
     ax = axes_or_new(ax)
     energy, names = result.energy[list(PLACES)].T, list(COORDINATES)
     if len(result.energy) > 6:
-        energy, names = np.column_stack([energy, result.subframe_share]), [*names, OF_SUBFRAME]
+        energy, names = (
+            np.column_stack([energy, np.asarray(result.subframe_share)]),
+            [*names, OF_SUBFRAME],
+        )
     (colour,) = colours(ax, 1)
     # From the background to what texts are still read on.
     shades = LinearSegmentedColormap.from_list(

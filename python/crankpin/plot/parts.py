@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, lines, mark
 from crankpin.plot.layout import Drawn, Panels, label_y, make_panels, set_panel_title, width_for
@@ -55,7 +56,7 @@ def parts(
     logarithmic = inputs.flag("log", log)
     along, words = along_x(sweep, x), words_of(sweep)
     if along == "engine":
-        hint = "draws over a number, such as bank_angle_deg; sweep one"
+        hint: str = Hint.of("draws over a number, such as `bank_angle_deg`; sweep one")
         raise inputs.rejected("kind", "parts", hint)
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]

@@ -13,6 +13,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.star import StarDiagram
@@ -78,7 +79,8 @@ def phasors(
     moment, one row for a torque. Arrows that cover each other are moved apart.
     """
     if ax is not None:
-        raise inputs.rejected("ax", ax, 'kind="phasors" has several panels; give figure=')
+        hint = Hint.of('`kind="phasors"` has several panels; give `figure=…`')
+        raise inputs.rejected("ax", ax, hint)
     kind = drawn_quantity(quantity, nonzero_in(result))
     result._request.check(kind)
     chosen = inputs.explicit_half_orders(
@@ -359,14 +361,14 @@ def _star(
 def _distinct(result: StarDiagram) -> list[list[Order]]:
     """Return the orders that have the same vectors, as even firing makes them every few orders."""
     alike: dict[bytes, list[Order]] = {}
-    for order, vectors in zip(result.orders, result.vectors, strict=True):
+    for order, vectors in zip(result.orders, result.read("vectors"), strict=True):
         alike.setdefault((np.round(vectors, EQUAL_DECIMALS) + 0.0).tobytes(), []).append(order)
     return list(alike.values())
 
 
 def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any]) -> list[Line2D]:
     """Draw the vectors of an order and their sum; return the entries of a legend."""
-    vectors = result.vectors[result._place(order)]
+    vectors = result.read("vectors")[result._place(order)]
     total, longest = result[order], float(np.abs(vectors).max(initial=0.0))
     ax.set_aspect("equal")
     ax.set(xticks=[], yticks=[], xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), frame_on=False)

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from crankpin._support import inputs, units
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import (
     Panels,
@@ -64,8 +65,8 @@ def plane_vector(quantity: object, result: Balance | Waveform) -> str:
     among = PLANE_VECTORS if quantity is None else QUANTITIES
     name = drawn_quantity(quantity, nonzero_in(result), among)
     if name not in PLANE_VECTORS:
-        hint = 'give quantity="force" or "moment"'
-        raise inputs.rejected("quantity", name, f"traces no curve; {hint}")
+        hint = Hint.of('traces no curve; give `quantity="force"` or "moment"')
+        raise inputs.rejected("quantity", name, hint)
     return name
 
 

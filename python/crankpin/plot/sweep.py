@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels, units
 from crankpin._support.drawing import picture
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
@@ -203,7 +204,7 @@ def _sweep(
     (2, 2)
     """
     if not result.coords:
-        hint = "give an array, such as bank_angle_deg=[60, 75, 90]"
+        hint = Hint.of("give an array, such as `bank_angle_deg=[60, 75, 90]`")
         raise inputs.faulty("sweep", "is of one point", hint)
     if x is not None:
         x = inputs.one_of("x", x, result.coords)
@@ -211,7 +212,7 @@ def _sweep(
     if chosen == "bars":
         for name, value in (("x", x), ("log", log)):
             if value is not None:
-                hint = 'has no meaning for kind="bars"; leave it out'
+                hint = Hint.of('has no meaning for `kind="bars"`; leave it out')
                 raise inputs.rejected(name, value, hint)
     options = {"quantity": quantity, "x": x, "orders": orders, "log": log, "label": label}
     return draw_kind(SWEEP_PICTURES, chosen, result, ax, figure, **options, **style)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, units
+from crankpin._support.messages import without_controls
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES, parts_of
-from crankpin._support.warnings import without_controls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.warnings import suppressed
+from crankpin._support.messages import suppressed
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.model.loads import of_speed_squared
 from crankpin.view.figures import in_units, named_controls, places

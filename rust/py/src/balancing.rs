@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 
 use crate::array::frozen;
 use crate::balance::vector;
-use crate::convert::{OrRaise, OrderNumber, RatioNumber, number, orders, ratio};
+use crate::convert::{OrRaise, OrderNumber, Parts, RatioNumber, cylinder, number, orders, ratio};
 use crate::engine::{Engine, Weight, choice, weight};
 use crate::interrupt;
 
@@ -140,6 +140,14 @@ fn read_planes(planes: Vec<(f64, usize)>) -> Vec<Plane> {
 #[pyfunction]
 pub fn with_bob_weights(engine: &Engine, factor: f64) -> PyResult<Engine> {
     bob_weight::with_bob_weights(&engine.0, factor).or_raise().map(Engine::from)
+}
+
+/// Amount, kg·m, and direction, degrees, of the weight at a pin that removes the forward part of a cylinder's order 1.
+#[guarded]
+#[pyfunction]
+pub fn forward_weight(py: Python<'_>, parts: Parts, rotating_mass: f64) -> PyResult<[f64; 2]> {
+    let cylinder = cylinder(parts)?;
+    interrupt::run(py, |cancel| bob_weight::forward_weight(&cylinder, rotating_mass, cancel))
 }
 
 /// Rotating and reciprocating mass on each crankpin, from front to flywheel, kg.

@@ -31,34 +31,80 @@ pub fn python_error(error: core::Error) -> PyErr {
     })
 }
 
-/// What hints and warnings of the core call by Rust's names, and how Python says it.
-const NAMES: [(&str, &str); 15] = [
-    ("`Engine::new`", "Engine.from_lists"),
+/// A piece of a hint: words, or, with a value that may be empty, the name of an argument or a method.
+pub type Piece = (String, Option<String>);
+
+/// What hints of the core call by Rust's names, and how Python says it, with names in backticks.
+const NAMES: [(&str, &str); 13] = [
+    ("`Engine::new`", "`Engine.from_lists`"),
     ("`Engine::without_gas`", "engine.with_cycle(None)"),
     ("`Powertrain::on`", "p.on(…)"),
     ("`Timing::Ports`", "Firing.ports, PortTiming"),
     ("`Timing::Valves`", "Firing.valves, ValveTiming"),
-    ("a `Vee` with `absent: [", "Engine.vee(throws_deg=…, absent=["),
-    ("]` and this firing order", "], firing_order=…)"),
-    ("a `Vee` of 180°", "Engine.flat"),
-    ("`by_axis: false`", "corners=\"mounts\""),
-    ("`torque: false`", "torque=False"),
-    ("or an engine with strokes ", "or an engine with strokes="),
-    ("at which it has that centre", "at which it has that centre: tdc_deg=…"),
-    ("give orders and speeds within", "give orders= and speeds within"),
-    ("needs the bore of each cylinder", "needs the bore; give bore=… to each Cylinder"),
+    ("a `Vee` with", "`Engine.vee` with `throws_deg=…`,"),
+    ("a `Vee` of 180°", "`Engine.flat`"),
+    ("`by_axis: false`", "`corners=\"mounts\"`"),
+    ("`torque: false`", "`torque=False`"),
+    ("at which it has that centre", "at which it has that centre: `tdc_deg=…`"),
+    ("give orders and speeds within", "give `orders=…` and speeds within"),
+    ("needs the bore of each cylinder", "needs the bore; give `bore=…` to each Cylinder"),
     ("sweep one axis in parts", "sweep one axis in parts, or use to_dask"),
 ];
 
-/// A hint or warning of the core in Python's names.
-pub fn python_names(text: &str) -> String {
-    NAMES.iter().fold(text.to_owned(), |text, (rust, python)| text.replace(rust, python))
+/// A hint of the core in Python's names: those of [`NAMES`], and `` `name: value` ``, a keyword.
+pub fn python_pieces(text: &str) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = vec![(text.to_owned(), None)];
+    for (rust, python) in NAMES {
+        pieces = pieces.into_iter().flat_map(|piece| split(piece, rust, python)).collect();
+    }
+    pieces.into_iter().flat_map(keywords).filter(|(text, _)| !text.is_empty()).collect()
+}
+
+/// A piece with another text, in which names are in backticks, in place of some words.
+fn split((text, value): Piece, rust: &str, python: &str) -> Vec<Piece> {
+    if value.is_some() || !text.contains(rust) {
+        return vec![(text, value)];
+    }
+    let piece = |(k, words): (usize, &str)| match words.split_once('=') {
+        _ if k % 2 == 0 => (words.to_owned(), None),
+        Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
+        None => (words.to_owned(), Some(String::new())),
+    };
+    let between: Vec<Piece> = python.split('`').enumerate().map(piece).collect();
+    let words = text.split(rust).map(|words| vec![(words.to_owned(), None)]);
+    words.collect::<Vec<_>>().join(&between[..])
+}
+
+/// A piece with its `` `name: value` `` as keywords.
+fn keywords((text, value): Piece) -> Vec<Piece> {
+    if value.is_some() {
+        return vec![(text, value)];
+    }
+    let is_name = |name: &str| name.bytes().all(|byte| byte == b'_' || byte.is_ascii_lowercase());
+    let of = |(k, words): (usize, &str)| match words.split_once(": ") {
+        Some((name, value)) if k % 2 == 1 && is_name(name) => {
+            (name.to_owned(), Some(value.to_owned()))
+        }
+        _ if k % 2 == 1 => (format!("`{words}`"), None),
+        _ => (words.to_owned(), None),
+    };
+    text.split('`').enumerate().map(of).collect()
+}
+
+/// The text of pieces.
+fn joined(pieces: &[Piece]) -> String {
+    let text = |(name, value): &Piece| match value.as_deref() {
+        Some(value) if !value.is_empty() => format!("{name}={value}"),
+        _ => name.clone(),
+    };
+    pieces.iter().map(text).collect()
 }
 
 fn input_error(error: &core::Error) -> PyErr {
     let message = error.to_string();
     let Some((argument, value, hint)) = error.fields() else { return InputError::new_err(message) };
-    let spoken = python_names(&hint);
+    let pieces = python_pieces(&hint);
+    let spoken = joined(&pieces);
     // Messages end with the hint.
     let rest = message.strip_suffix(&*hint).unwrap_or(&message);
     let raised = InputError::new_err(format!("{rest}{spoken}"));
@@ -66,7 +112,8 @@ fn input_error(error: &core::Error) -> PyErr {
         let exception = raised.value(py);
         exception.setattr("argument", argument)?;
         exception.setattr("value", value)?;
-        exception.setattr("hint", &spoken)
+        exception.setattr("hint", &spoken)?;
+        exception.setattr("_pieces", pieces)
     };
     boundary::unpanicked(|| Python::attach(set)).map_or_else(|failed| failed, |()| raised)
 }

@@ -8,7 +8,7 @@ use crankpin_macros::guarded;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::OrRaise;
+use crate::convert::{OrRaise, orders_of_halves};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -100,6 +100,34 @@ pub fn disc(
     thickness: Option<f64>,
 ) -> PyResult<[f64; 2]> {
     flywheel::rim::disc(inertia, density, diameter, thickness).or_raise()
+}
+
+/// Largest less smallest speed of each order alone, over the mean speed.
+#[guarded]
+#[pyfunction]
+pub fn irregularity_by_order<'py>(
+    py: Python<'py>,
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    speed: PyReadonlyArray1<'_, f64>,
+    mean_speed: f64,
+    halves: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (theta_deg, speed) = (theta_deg.as_slice()?, speed.as_slice()?);
+    let orders = orders_of_halves(halves)?;
+    let found = interrupt::run(py, |cancel| {
+        flywheel::irregularity_by_order(theta_deg, speed, mean_speed, &orders, cancel)
+    })?;
+    frozen(py, found.into())
+}
+
+/// Largest less smallest angle by which a crank leads one that turns evenly, degrees.
+#[guarded]
+#[pyfunction]
+pub fn swing_deg(
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    speed: PyReadonlyArray1<'_, f64>,
+) -> PyResult<f64> {
+    Ok(flywheel::swing_deg(theta_deg.as_slice()?, speed.as_slice()?))
 }
 
 #[guarded]

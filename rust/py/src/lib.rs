@@ -45,8 +45,8 @@ mod _core {
     use crate::{
         balance::{Balance, angular_speed, balance, bounds_about, terms, tilts_deg},
         balancing::{
-            FirstOrder, appearing, bay_loads, corrections, fit_shafts, fit_weights, masses_on_pins,
-            pair_heights, roll_torque, shared, turning, with_bob_weights,
+            FirstOrder, appearing, bay_loads, corrections, fit_shafts, fit_weights, forward_weight,
+            masses_on_pins, pair_heights, roll_torque, shared, turning, with_bob_weights,
         },
         bearing_loads::BearingLoadsModel,
         closed_form::closed_form,
@@ -56,13 +56,18 @@ mod _core {
         explain::{Explanation, dead_text, explain, gas_text},
         figures::{drawn, drawn_rod, drawn_turning, listed_orders, load_rows, rod_ratios},
         firing::{Firing, check_timing, inline_throws, vee_throws},
-        flywheel::{CycleGrid, disc, energy_levels, inertia_by_irregularity, mean_inertias, rim},
+        flywheel::{
+            CycleGrid, disc, energy_levels, inertia_by_irregularity, irregularity_by_order,
+            mean_inertias, rim, swing_deg,
+        },
         matching::MeasuredParts,
         mounts::{
             AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, check_mount,
-            check_support, mount_stiffness, peaks_of_vectors, rigid_body,
+            check_support, motor_shares, mount_stiffness, peaks_of_vectors, rigid_body,
         },
-        pressure::{Cycle, places_on_axis, repeats_first, volume_ratios},
+        pressure::{
+            Cycle, compression_peak, low_passed, places_on_axis, polytropic_offsets, repeats_first,
+        },
         search::{BankAngles, Search, arrangement},
         slider_crank::{
             centred_table, check_cylinder, crank_radius_of_stroke, cylinder_harmonics,

@@ -670,6 +670,19 @@ impl Response {
     }
 }
 
+/// Force of an actuator's motor over that on the powertrain, at frequencies, Hz.
+#[guarded]
+#[pyfunction]
+pub fn motor_shares<'py>(
+    py: Python<'py>,
+    resonance: f64,
+    damping_ratio: f64,
+    frequency: PyReadonlyArray1<'_, f64>,
+) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+    let share = |&frequency: &f64| mounts::motor_share(resonance, damping_ratio, frequency);
+    frozen(py, frequency.as_slice()?.iter().map(share).collect::<Vec<_>>().into())
+}
+
 /// An actuator whose motor pushes against a mass on a spring, as Python's record has it.
 #[derive(FromPyObject)]
 pub struct Inertial {

@@ -11,9 +11,10 @@ use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Compressor, Face, Ideal, Swept};
 use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::pressure::map::between;
-use crankpin_core::{Complex64, order};
+use crankpin_core::pressure::preparation;
+use crankpin_core::{Complex64, memory, order};
 use crankpin_macros::guarded;
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, Parts, cylinder, orders_of_halves};
@@ -39,26 +40,55 @@ impl Hash for Cycle {
     }
 }
 
-/// Volume over a piston at crank angles, degrees, over the clearance volume.
+/// Crank angle of the largest pressure of a motored cycle, between points, degrees.
 #[guarded]
 #[pyfunction]
-pub fn volume_ratios<'py>(
-    py: Python<'py>,
-    parts: Parts,
-    bore: f64,
-    compression_ratio: f64,
-    strokes: u32,
+pub fn compression_peak(
     theta_deg: PyReadonlyArray1<'_, f64>,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    pressure: PyReadonlyArray1<'_, f64>,
+    period_deg: f64,
+) -> PyResult<f64> {
+    preparation::compression_peak(theta_deg.as_slice()?, pressure.as_slice()?, period_deg)
+        .or_raise()
+}
+
+/// Exponent of a polytropic compression at crank angles, degrees, fitted if it is None, and what must be added to
+/// the pressure of each cycle, (`n_cycles`, `n_theta`), that it is one.
+#[guarded]
+#[pyfunction]
+pub fn polytropic_offsets<'py>(
+    py: Python<'py>,
+    figures: (Parts, f64, f64, u32),
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    pressure: PyReadonlyArray2<'_, f64>,
+    exponent: Option<f64>,
+) -> PyResult<(f64, Bound<'py, PyArray1<f64>>)> {
+    let (parts, bore, compression_ratio, strokes) = figures;
     let chamber = chamber(parts, bore, compression_ratio, strokes)?;
-    let thetas = theta_deg.as_slice()?;
-    interrupt::written(py, [thetas.len()], None, |out, cancel| {
+    let (thetas, pressure) = (theta_deg.as_slice()?, pressure.as_array());
+    let (exponent, offsets) = interrupt::run(py, |cancel| {
         core::crank_angles::check(thetas, cancel)?;
-        for (ratio, &theta) in out.iter_mut().zip(thetas) {
-            *ratio = chamber.ratio(theta);
-        }
-        Ok(())
-    })
+        preparation::polytropic_offsets(&chamber, thetas, &pressure, exponent, cancel)
+    })?;
+    Ok((exponent, frozen(py, offsets.into())?))
+}
+
+/// Pressure of cycles in a row without what is above an order of crank speed: (`n_cycles`, `n_theta`).
+#[guarded]
+#[pyfunction]
+pub fn low_passed<'py>(
+    py: Python<'py>,
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    pressure: PyReadonlyArray2<'_, f64>,
+    period_deg: f64,
+    order: f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (thetas, pressure) = (theta_deg.as_slice()?, pressure.as_array());
+    let smooth = interrupt::run(py, |cancel| {
+        let smooth = preparation::low_passed(thetas, &pressure, period_deg, order, cancel)?;
+        memory::array("pressure", pressure.dim(), smooth)
+    })?;
+    writeable(py, smooth)
 }
 
 type PlacesOnAxis<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);

@@ -5,7 +5,7 @@ use crankpin_core::engine::warnings::{
 };
 use crankpin_core::mounts::warnings::of_powertrain;
 use crankpin_core::pressure::warnings::of_cycle;
-use crankpin_core::{Cancel, Result, Warning};
+use crankpin_core::{Cancel, Result};
 use serde_json::{Map, Value, json};
 
 use crate::answer::Columns;
@@ -31,7 +31,7 @@ pub fn warnings(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
         found.extend(pin_split(&engine, split));
     }
     let typed: Map<String, Value> = arguments.or("angles", Map::new())?;
-    let listed = found.into_iter().map(|Warning { argument, text }| (argument, text));
+    let listed = found.into_iter().map(|warning| (warning.argument.clone(), warning.text()));
     let listed = listed.chain(typed.iter().flat_map(|(name, texts)| of_angles(name, texts)));
     Ok(listed.map(|(argument, text)| json!({ "argument": argument, "message": text })).collect())
 }

@@ -12,6 +12,7 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import Hint
 from crankpin._support.record import Record, changed, item_key
 from crankpin._support.tables import Item, Table
 from crankpin.model.data import parts
@@ -194,8 +195,10 @@ def search_arrangements(
         raise inputs.rejected(
             "shared_pins",
             True,
-            'give hold="pins", and leave out alternating; with top dead centres held pins are '
-            "split at all but one bank angle",
+            Hint.of(
+                'give `hold="pins"`, and leave out `alternating`; with top dead centres '
+                "held pins are split at all but one bank angle"
+            ),
         )
     with progress_bar.shown(watched, f"V{count}") as report:
         core = _core.Search(count, rule, phases, held, shared, report)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 from crankpin import _core
 from crankpin._support import inputs
-from crankpin._support.warnings import warn
+from crankpin._support.messages import Hint, warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.fitting import warn_of_appearing
 from crankpin.analysis.balancing.planes import Turning, ends
@@ -142,10 +142,8 @@ def balance_shafts(
         speed,
     )
     if beyond is not None:
-        warn(
-            "the roll torque is not cancelled: shafts that do so would be "
-            f"{beyond:.3g} m from the crank axis; give x and y"
-        )
+        far = f"is not cancelled: shafts that do so would be {beyond:.3g} m from the crank axis"
+        warn("the roll torque", Hint.of(f"{far}; give `x` and `y`"))
     first, last = ends(engine)[0], ends(engine)[-1]
     supports = (first, last) if first < last else None
     fit = BalanceShafts(

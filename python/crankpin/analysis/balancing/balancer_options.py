@@ -12,9 +12,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import changed
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
@@ -137,9 +137,9 @@ def balancer_options(
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
     with_weights = inputs.flag("counterweights", counterweights)
     if is_relative and target is None:
-        raise inputs.rejected("relative", relative, "needs target; give target=…")
+        raise inputs.rejected("relative", relative, Hint.of("needs `target`; give `target=…`"))
     if not (with_weights or (isinstance(planes, str) and planes == "ends")):
-        raise inputs.rejected("planes", planes, "needs counterweights=True")
+        raise inputs.rejected("planes", planes, Hint.of("needs `counterweights=True`"))
     speed, most = inputs.number("rpm", rpm), inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise inputs.rejected("most_shafts", most, "give 0 or more")
@@ -238,7 +238,7 @@ def balancer_sets(
         by_shafts = list(map(sum, itertools.zip_longest(by_shafts, one_more, fillvalue=0)))
     count = sum(by_shafts[: most_shafts + 1])
     if count > MOST_SETS:
-        hint = f"give fewer orders or most_shafts, for {MOST_SETS} at most"
+        hint = Hint.of(f"give fewer `orders` or `most_shafts`, for {MOST_SETS} at most")
         raise inputs.faulty("shaft_orders", f"make {count} sets of shafts", hint)
     choices: list[list[Part | None]] = [[None] for _ in removals]
     for parts, (ratio, alternatives) in zip(choices, removals.items(), strict=True):
@@ -309,7 +309,9 @@ def _objectives(
         return objectives, {}
     if not isinstance(target, Mapping):
         if one_unit and len({objective.unit for objective in objectives}) > 1:
-            hint = "by has objectives of several units; give objective → value, or relative=True"
+            hint = Hint.of(
+                "`by` has objectives of several units; give objective → value, or `relative=True`"
+            )
             raise inputs.rejected("target", target, hint)
         return objectives, dict.fromkeys(names, _limit("target", target))
     limits = {name: _limit(f"target[{name!r}]", value) for name, value in target.items()}

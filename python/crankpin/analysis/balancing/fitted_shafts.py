@@ -12,6 +12,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, read_only
 from crankpin._support.tables import Column, Table
@@ -181,7 +182,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         loads = []
         for shaft, bearings in zip(self.hardware, self.bearings, strict=True):
             if bearings is None:
-                hint = "give bearings=(z_front, z_rear) to balance_shafts"
+                hint = Hint.of("give `bearings=(z_front, z_rear)` to balance_shafts")
                 raise inputs.rejected("bearings", None, hint)
             loads.append(on_shaft_bearings(shaft, *bearings, rpm))
         return read_only(np.array(loads))

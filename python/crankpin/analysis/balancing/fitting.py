@@ -13,9 +13,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.messages import Hint, warn
 from crankpin._support.quantities import PLANE_VECTORS
 from crankpin._support.record import read_only
-from crankpin._support.warnings import warn
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
@@ -179,8 +179,8 @@ def _check_between(engine: Engine, planes: Mapping[str, Place], target: Target) 
         of_crank = [bay for bay in bays(engine) if bay.crank == crank]
         if of_crank and not any(bay.holds(z, crank) for bay in of_crank):
             ends = f"{of_crank[0].bearings[0]:.6g} to {of_crank[-1].bearings[1]:.6g} m"
-            hint = f'for target="{target}" give places between those of a throw'
-            hint = f"is beyond the main bearings ({ends}); {hint}"
+            between = f'for `target="{target}"` give places between those of a throw'
+            hint = Hint.of(f"is beyond the main bearings ({ends}); {between}")
             raise inputs.faulty(f'planes["{name}"]', f"= {z:.6g}", hint)
 
 
@@ -200,7 +200,5 @@ def warn_of_appearing(engine: Engine, with_hardware: _core.Engine) -> None:
     appearing = _core.appearing(engine_core(engine), with_hardware)
     if appearing:
         words = [f"{APPEARING[name]} of order {order}" for order, name in appearing]
-        warn(
-            f"{labels.name_of(engine)}: the fitted engine has a {' and a '.join(words)}, which "
-            "vanishes without this hardware"
-        )
+        about = f"{labels.name_of(engine)}: the fitted engine"
+        warn(about, f"has a {' and a '.join(words)}, which vanishes without this hardware")

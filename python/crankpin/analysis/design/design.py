@@ -10,8 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.messages import suppressed
 from crankpin._support.parameters import documented
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import optima
 from crankpin.analysis.design.designs import Design, Designs

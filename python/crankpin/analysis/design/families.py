@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import cmath
 import dataclasses
-import math
 from collections import Counter
 from fractions import Fraction
 from itertools import product
@@ -12,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin import _core
 from crankpin._support import inputs
-from crankpin._support.warnings import suppressed
+from crankpin._support.messages import Hint, suppressed
 from crankpin.analysis.arrangements.cranks import (
     MOST_CRANKS,
     TURN,
@@ -98,8 +96,8 @@ def families(question: Question) -> tuple[list[Family], int]:
         distinct.setdefault(dataclasses.replace(family, base=base))
     if not distinct:
         between = "{} to {}".format(*question.bank_angle)
-        hint = "allow other bank angles, or pins that are split (shared_pins=False)"
-        hint = f"no crank fires at these intervals; {hint}"
+        why = "no crank fires at these intervals; allow other bank angles, or pins that are split "
+        hint = Hint.of(f"{why}(`shared_pins=False`)")
         raise inputs.faulty("bank_angle_deg", f"= {between}", hint)
     return list(distinct), len(everything)
 
@@ -317,16 +315,9 @@ def _bare(question: Question, crank: Crank) -> Engine:
 
 
 def _bob_weight(question: Question) -> Unbalance:
-    """Return the weight at a pin that removes the forward part of its cylinder's first order.
-
-    Half the reciprocating mass, whatever the bank (all of it forward); with an offset piston pin
-    the first harmonic is a complex number, and the weight stands beside the opposite of the pin.
-    """
-    cylinder = question.cylinder
-    (first,) = cylinder.harmonics([1])
-    mass = 0.5 * cylinder.reciprocating_mass * complex(first) + question.rotating_mass
-    vector = -mass * cylinder.crank_radius
-    return Unbalance(abs(vector), 0.0, round(math.degrees(cmath.phase(vector)), 13))
+    """Return the weight at a pin that removes the forward part of its cylinder's first order."""
+    amount, angle_deg = _core.forward_weight(question.cylinder._parts, question.rotating_mass)
+    return Unbalance(amount, 0.0, angle_deg)
 
 
 def _with_shafts(engine: Engine, ratios: tuple[Order, ...]) -> Engine:

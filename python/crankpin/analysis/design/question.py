@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin.analysis.arrangements.cranks import (
     HALF,
     TURN,
@@ -143,14 +144,16 @@ def checked(
         inputs.flag("same_split", same_split),
     )
     if banks == 1 and stagger:
-        raise inputs.rejected("bank_stagger", bank_stagger, 'layout="inline" has no banks')
+        raise inputs.rejected(
+            "bank_stagger", bank_stagger, Hint.of('`layout="inline"` has no banks')
+        )
     if not same and split[0] == split[1]:
         raise inputs.rejected("same_split", same_split, "acts only where pin splits may vary")
     free = isinstance(throws_deg, str) and throws_deg == "free"
     if intervals is not None and throws_deg is not None:
-        hint = "leave out throws_deg, or even_firing and intervals_deg"
-        why = f"the firing intervals determine the throws; {hint}"
-        raise inputs.rejected("throws_deg", throws_deg, why)
+        why = "the firing intervals determine the throws; leave out "
+        hint = Hint.of(f"{why}`throws_deg`, or `even_firing` and `intervals_deg`")
+        raise inputs.rejected("throws_deg", throws_deg, hint)
     count = number // banks
     return Question(
         cylinders=number,
@@ -190,7 +193,9 @@ def _intervals(
     if intervals_deg is None:
         return (simple(Fraction(cycle, number)),) * number if even else None
     if even:
-        raise inputs.rejected("intervals_deg", intervals_deg, "leave it out, or even_firing")
+        raise inputs.rejected(
+            "intervals_deg", intervals_deg, Hint.of("leave it out, or `even_firing`")
+        )
     intervals = [exact(angle) for angle in inputs.angles("intervals_deg", intervals_deg)]
     if len(intervals) != number or sum(intervals) != cycle or min(intervals) < 0:
         hint = f"give {number} intervals, none negative, that add up to {cycle}"
@@ -208,7 +213,7 @@ def _bank_angles(kind: str, bank_angle_deg: Range | None) -> tuple[Exact, Exact]
         if bank_angle_deg is not None:
             what = "has no banks" if kind == "inline" else "has its banks at 180"
             raise inputs.rejected(
-                "bank_angle_deg", bank_angle_deg, f'layout="{kind}" {what}; leave it out'
+                "bank_angle_deg", bank_angle_deg, Hint.of(f'`layout="{kind}"` {what}; leave it out')
             )
         return (0, 0) if kind == "inline" else (HALF, HALF)
     if bank_angle_deg is None:
@@ -225,7 +230,7 @@ def _splits(
     )
     if kind != "vee" and (pin_split_deg is not None or shared_pins is not None):
         what = "one cylinder on each pin" if kind == "inline" else "pins split by 180"
-        hint = f"has {what}; leave out shared_pins and pin_split_deg"
+        hint = Hint.of(f"has {what}; leave out `shared_pins` and `pin_split_deg`")
         raise inputs.rejected("layout", kind, hint)
     if kind == "boxer":
         return (HALF, HALF)
@@ -269,10 +274,8 @@ def _throws(count: int, throws: object) -> tuple[tuple[Exact, ...], ...]:
 
 
 def _shafts(shaft_ratios: Iterable[float | str | Fraction]) -> tuple[Order, ...]:
-    hint = (
-        "give different speed ratios, multiples of 1/2 such as [-1] or [2, -2]; "
-        "for 1 give counterweights=True"
-    )
+    different = "give different speed ratios, multiples of 1/2 such as [-1] or [2, -2]"
+    hint = Hint.of(f"{different}; for 1 give `counterweights=True`")
     entries = inputs.items("shafts", shaft_ratios, hint)
     ratios = [inputs.speed_ratio("shafts", ratio) for ratio in entries]
     if max(map(abs, ratios), default=0) > _core.HIGHEST_ORDER:

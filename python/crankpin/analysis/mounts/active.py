@@ -10,9 +10,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.frames import Frames, Tabled
+from crankpin._support.quantities import CANCELLED
 from crankpin._support.record import changed, computed, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.export import VALUES
+from crankpin.analysis.labelled import Labelled
 from crankpin.analysis.mounts.adaptive import MOST_UPDATE_DELAYS, AdaptiveLaw
 from crankpin.analysis.mounts.response import SUPPORT, MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL
@@ -24,9 +26,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._support.frames import Frames
     from crankpin._support.inputs import Order, Orders
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.mounts.response import Source
+    from crankpin.analysis.quantity import Quantity
     from crankpin.analysis.request import Request
 
 Direction: TypeAlias = "tuple[float, float, float] | None"
@@ -73,12 +77,15 @@ class DrivenResponse(MountResponse):
     _driven = ", with actuators"
 
 
-class Cancellation(Tabled):
+class Cancellation(Labelled):
     """Forces of actuators that leave the least at receivers, order by order, and what they do.
 
     Limits of motor and stroke hold for each order by itself. A force of one order changes no other:
     the powertrain is linear. Made by :meth:`MountResponse.cancel`.
     """
+
+    _along = ("order",)
+    _registry = CANCELLED
 
     before: MountResponse
     """The response without actuators."""
@@ -98,11 +105,7 @@ class Cancellation(Tabled):
     """Share by which all forces are too large."""
     phase_error_deg: float = 0.0
     """Angle by which all forces are ahead, degrees."""
-    forces: NDArray[np.complex128] = computed()
-    """Peak phasors of the actuators' forces on the powertrain, N, of ``before.orders``.
-
-    Of shape (…, n_orders, n_actuators); zero of orders that are not cancelled.
-    """
+    _forces: NDArray[np.complex128] = computed()
     _effect: NDArray[np.complex128] = computed()
     _target: NDArray[np.complex128] = computed()
 
@@ -128,7 +131,7 @@ class Cancellation(Tabled):
         error = (1.0 + self.amplitude_error) * np.exp(1j * np.radians(self.phase_error_deg))
         forces = np.zeros_like(found)
         forces[..., places, :] = found[..., places, :] * error
-        self.__dict__.update(forces=read_only(forces), _effect=effect, _target=target)
+        self.__dict__.update(_forces=read_only(forces), _effect=effect, _target=target)
         super().__post_init__()
 
     def _frequency(self) -> NDArray[np.float64]:
@@ -155,19 +158,47 @@ class Cancellation(Tabled):
     @cached_property
     def response(self) -> DrivenResponse:
         """Response with the actuators: forces, points, power, as one without them."""
-        return self._driven(self.actuators, self.forces)
+        return self._driven(self.actuators, self._forces)
 
     @property
-    def residual(self) -> NDArray[np.float64]:
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: those of the response without actuators."""
+        return self.before.coords
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        return {"actuator": tuple(one.name for one in self.actuators)}
+
+    def _dims(self, quantity: str, what: str = VALUES) -> tuple[str, ...]:
+        return tuple(sorted(super()._dims(quantity, what), key=("actuator",).count))
+
+    def _values(self, quantity: str) -> NDArray[Any]:
+        places = [self.before.orders.index(order) for order in self.orders]
+        if quantity == "residual":
+            left = self._target + (self._effect @ self._forces[..., None])[..., 0]
+            return _ratio(self._size(left), self._size(self._target))[..., places]
+        forces = self._forces[..., places, :]
+        if quantity == "utilisation":
+            bounds = [one.largest_force(self._frequency()[..., places]) for one in self.actuators]
+            return np.asarray(np.abs(forces) / np.stack(bounds, axis=-1))
+        return forces
+
+    @property
+    def forces(self) -> Quantity[np.complex128]:
+        """Peak phasors of the actuators' forces on the powertrain, N: (…, n_orders, n_actuators).
+
+        Of the orders that are cancelled; those of others are zero.
+        """
+        return self._quantity("forces")
+
+    @property
+    def residual(self) -> Quantity[np.float64]:
         """Residual at all receivers over the value without actuators: (…, n_orders).
 
-        Of each order that is cancelled; NaN where there was nothing. Of the norm ``"largest"`` the
+        Of the orders that are cancelled; NaN where there was nothing. Of the norm ``"largest"`` the
         largest of the receivers over the largest.
         """
-        places = [self.before.orders.index(order) for order in self.orders]
-        target, effect = self._target, self._effect
-        left = target + (effect @ self.forces[..., None])[..., 0]
-        return read_only(_ratio(self._size(left), self._size(target))[..., places])
+        return self._quantity("residual")
 
     def _size(self, values: NDArray[np.complex128]) -> NDArray[np.float64]:
         """Return the objective of phasors of the receivers side by side: (…, n_orders)."""
@@ -178,10 +209,9 @@ class Cancellation(Tabled):
         return np.asarray(np.max([np.linalg.norm(part, axis=-1) for part in parts], axis=0))
 
     @property
-    def utilisation(self) -> NDArray[np.float64]:
+    def utilisation(self) -> Quantity[np.float64]:
         """Force over the largest that motor and stroke allow: (…, n_orders, n_actuators)."""
-        bounds = [one.largest_force(self._frequency()) for one in self.actuators]
-        return read_only(np.abs(self.forces) / np.stack(bounds, axis=-1))
+        return self._quantity("utilisation")
 
     def with_error(self, *, amplitude: float = 0.0, phase_deg: float = 0.0) -> Cancellation:
         """Return the same forces with errors, as of shafts that follow the crank inexactly.
@@ -335,7 +365,7 @@ class Cancellation(Tabled):
         others = [order for order in self.before.orders if order not in self.orders]
         if others:
             notes.append(f"{labels.orders_text(tuple(others)).capitalize()}: as before.")
-        together = self.utilisation.sum(axis=-2)
+        together = self.read("utilisation").sum(axis=-2)
         for k, one in enumerate(self.actuators):
             share = float(np.max(together[..., k]))
             if len(self.orders) > 1 and share > 1.0 + LEVEL:
@@ -352,12 +382,13 @@ class Cancellation(Tabled):
 
     def _of_actuators(self) -> Table:
         swept = bool(self.before.dims)
-        frequency, used, forces = self._frequency(), self.utilisation, self.forces
+        places = [self.before.orders.index(order) for order in self.orders]
+        frequency = self._frequency()[..., places]
+        used, forces = self.read("utilisation"), self.read("forces")
         speeds = np.asarray(self.before.rpm, dtype=float)
         rows: list[list[Any]] = []
         for j, one in enumerate(self.actuators):
-            for order in self.orders:
-                place = self.before.orders.index(order)
+            for place, order in enumerate(self.orders):
                 size = np.abs(forces[..., place, j])
                 key = np.where(np.isfinite(size), used[..., place, j], 0.0)
                 row = int(np.argmax(key if np.any(key) else size)) if swept else 0

@@ -9,14 +9,19 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
-from crankpin._support.frames import Tabled
+from crankpin._support.quantities import ADAPTED
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.labelled import Labelled
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.mounts.active import Cancellation
+    from crankpin.analysis.quantity import Quantity
 
 QUARTER = 90.0
 """Phase error, degrees, at which no step converges."""
@@ -26,11 +31,14 @@ MOST_UPDATE_DELAYS = 100
 """Largest delay in updates: rates are roots of polynomials of that degree."""
 
 
-class AdaptiveLaw(Tabled):
+class AdaptiveLaw(Labelled):
     """Convergence of adaptive weights at each speed and order.
 
     Made by :meth:`Cancellation.adaptive`.
     """
+
+    _along = ("order",)
+    _registry = ADAPTED
 
     cancellation: Cancellation
     """The cancellation to which it converges."""
@@ -44,9 +52,32 @@ class AdaptiveLaw(Tabled):
     """Updates after which the effect of one is measured."""
 
     @property
-    def frequency(self) -> NDArray[np.float64]:
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: those of the response without actuators."""
+        return self.cancellation.before.coords
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """Orders that are cancelled."""
+        return self.cancellation.orders
+
+    def _values(self, quantity: str) -> NDArray[np.float64]:
+        frequency = self._cancelled(self.cancellation._frequency())
+        if quantity == "critical_delay":
+            left = max(0.0, QUARTER - abs(self.phase_error_deg)) / 360.0
+            return np.asarray(left / frequency)
+        if quantity == "error_deg":
+            error = self.phase_error_deg - 360.0 * frequency * self.delay
+            return np.asarray(180.0 - np.mod(180.0 - error, 360.0))
+        if quantity == "frequency":
+            return frequency
+        found = self._law.largest_steps() if quantity == "largest_step" else self._law.rates()
+        return np.reshape(found, frequency.shape)
+
+    @property
+    def frequency(self) -> Quantity[np.float64]:
         """Frequencies of the orders, Hz: (…, n_orders)."""
-        return read_only(self._cancelled(self.cancellation._frequency()))
+        return self._quantity("frequency")
 
     def _cancelled(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return the values of the orders that are cancelled, of (…, n_orders) of the response."""
@@ -54,40 +85,38 @@ class AdaptiveLaw(Tabled):
         return values[..., [orders.index(order) for order in self.cancellation.orders]]
 
     @property
-    def critical_delay(self) -> NDArray[np.float64]:
+    def critical_delay(self) -> Quantity[np.float64]:
         """Delay at which no step converges, s: a quarter of the period: (…, n_orders).
 
         What is left of it where the model's phase is wrong otherwise.
         """
-        left = max(0.0, QUARTER - abs(self.phase_error_deg)) / 360.0
-        return read_only(left / self.frequency)
+        return self._quantity("critical_delay")
 
     @property
-    def error_deg(self) -> NDArray[np.float64]:
+    def error_deg(self) -> Quantity[np.float64]:
         """Error of the model's phase with the delay, −180 to 180 degrees: (…, n_orders)."""
-        error = self.phase_error_deg - 360.0 * self.frequency * self.delay
-        return read_only(180.0 - np.mod(180.0 - error, 360.0))
+        return self._quantity("error_deg")
 
     @cached_property
     def _law(self) -> _core.AdaptiveLaw:
-        effect, errors = self._effect(), self.error_deg.ravel()
+        effect, errors = self._effect(), self.read("error_deg").ravel()
         points = np.ascontiguousarray(effect.reshape(-1, *effect.shape[-2:]))
         return _core.AdaptiveLaw(points, errors, self.step, self.update_delay)
 
     @property
-    def largest_step(self) -> NDArray[np.float64]:
+    def largest_step(self) -> Quantity[np.float64]:
         """Step from which on it diverges, 0 where any does: (…, n_orders)."""
-        return np.reshape(self._law.largest_steps(), self.frequency.shape)
+        return self._quantity("largest_step")
 
     @property
     def stable(self) -> NDArray[np.bool_]:
         """Whether it converges: (…, n_orders)."""
-        return read_only(self.step < self.largest_step)
+        return read_only(self.step < self.read("largest_step"))
 
     @property
-    def rate(self) -> NDArray[np.float64]:
+    def rate(self) -> Quantity[np.float64]:
         """Attenuation of the slowest part, dB per update, below zero of growth: (…, n_orders)."""
-        return np.reshape(self._law.rates(), self.frequency.shape)
+        return self._quantity("rate")
 
     def _effect(self) -> NDArray[np.complex128]:
         effect = self.cancellation._effect
@@ -127,11 +156,11 @@ class AdaptiveLaw(Tabled):
         columns = [Column("rpm", speeds, digits=10)] if before.dims else []
         columns.append(Column("order", tuple(orders) * (shape[0] if before.dims else 1)))
         figures = [
-            ("f", self.frequency, "Hz"),
+            ("f", self.read("frequency"), "Hz"),
             ("critical delay", 1e3 * self.critical_delay, "ms"),
-            ("phase error", self.error_deg, "°"),
-            ("largest step", self.largest_step, ""),
-            ("rate", self.rate, "dB/update"),
+            ("phase error", self.read("error_deg"), "°"),
+            ("largest step", self.read("largest_step"), ""),
+            ("rate", self.read("rate"), "dB/update"),
         ]
         columns += [Column(name, values, unit) for name, values, unit in figures]
         columns.append(Column("stable", self.stable))

@@ -16,8 +16,8 @@ from crankpin import _core
 from crankpin._support import inputs, labels, lazy, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.request import engine_core
 from crankpin.model.mounts import Mount
@@ -269,7 +269,7 @@ class Question:
         ):
             for mount in powertrain.mounts:
                 if mount.table is not None:
-                    hint = "cannot be designed; give dynamic_stiffness"
+                    hint = Hint.of("cannot be designed; give `dynamic_stiffness`")
                     raise inputs.faulty(
                         f"table of mount {mount.name!r}", "has many frequencies", hint
                     )
@@ -307,7 +307,7 @@ class Question:
                 inputs.one_of(f"vary[{name!r}]", kind, KINDS)
                 mount = self.powertrain.mounts[names.index(name)]
                 if kind == "tilt_deg" and mount.axes is not None:
-                    hint = "it has axes; give it tilt_deg, or vary something else"
+                    hint = Hint.of("it has `axes`; give it `tilt_deg`, or vary something else")
                     raise inputs.rejected(f"vary[{name!r}]", kind, hint)
                 parts_of.append((names.index(name), kind))
         if not parts_of:
@@ -382,10 +382,10 @@ class Question:
         return float(np.max(response.read(name, "peak")))
 
     def _purities(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._frequency).purity
+        return powertrain.modes(self._frequency).read("purity")
 
     def _modes(self, powertrain: Powertrain) -> Real:
-        return powertrain.modes(self._frequency).frequency
+        return powertrain.modes(self._frequency).read("frequency")
 
     # --- the search -------------------------------------------------------------------------------
 

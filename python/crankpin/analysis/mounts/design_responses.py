@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.messages import Hint
 from crankpin._support.quantities import DESIGNS
 from crankpin._support.record import AbsentError, read_only
 from crankpin._support.tables import Column, Table
@@ -125,7 +126,7 @@ class DesignResponses(Labelled):
 
     def _check(self, quantity: str) -> None:
         if quantity in DESIGNS and quantity not in self._names:
-            hint = "give Powertrain.designs mount_force=True, or points"
+            hint = Hint.of("give Powertrain.designs `mount_force=True`, or `points`")
             raise inputs.faulty(quantity, "is not available", hint, AbsentError)
         super()._check(quantity)
 
@@ -271,12 +272,13 @@ def _values(mount: Mount, figure: str, numbers: ArrayLike) -> NDArray[np.float64
     inputs.one_of(name, figure, MOUNT_FIGURES)
     name = f"{name}[{figure!r}]"
     if figure == "stiffness" and mount.dynamic_stiffness is not None:
-        hint = (
-            "the mount has a dynamic_stiffness; vary that: the static one does not count in motion"
-        )
+        static = "vary that: the static one does not count in motion"
+        hint: str = Hint.of(f"the mount has a `dynamic_stiffness`; {static}")
         raise inputs.rejected(name, numbers, hint)
     if figure == "tilt_deg" and mount.axes is not None:
-        raise inputs.rejected(name, numbers, "the mount has axes; give it a tilt_deg instead")
+        raise inputs.rejected(
+            name, numbers, Hint.of("the mount has `axes`; give it a `tilt_deg` instead")
+        )
     values = inputs.array(name, numbers)
     is_vector = values.ndim == 2 and values.shape[1] == 3 and figure != "tilt_deg"
     is_number = values.ndim == 1 and figure != "at"

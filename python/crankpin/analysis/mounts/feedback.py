@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs, units
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import Hint
 from crankpin._support.record import computed, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model.actuators import Actuator
@@ -60,10 +61,9 @@ class VelocityFeedback(Tabled):
         core = self.powertrain._core
         undamped = core.undamped(self.actuator, at)
         if undamped is not None:
-            hint = (
-                "a limit of gain is that of a powertrain and actuator that are stable without: "
-                "give mounts a loss_factor or damping, and the actuator a damping_ratio"
-            )
+            stable = "a limit of gain is that of a powertrain and actuator that are stable without"
+            damped = "give mounts a `loss_factor` or `damping`, and the actuator a `damping_ratio`"
+            hint = Hint.of(f"{stable}: {damped}")
             raise inputs.faulty("nothing", f"damps the mode at {undamped:.5g} Hz", hint)
         own = [*modes.frequency[modes.frequency > 0.0].tolist(), resonance]
         grid = np.geomspace(min(own) / REACH, max(own) * REACH, POINTS)

@@ -6,24 +6,29 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import computed, read_only
+from crankpin._support.quantities import MODES, ROLL_AXES
+from crankpin._support.record import computed
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.labelled import Labelled
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Mapping
 
+    from crankpin._support.frames import Frames
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.analysis.quantity import Quantity
 
 COORDINATES = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 """Names of the motions along z, x and y, and about z, x and y."""
+AXES = ("x", "y", "z", "about x", "about y", "about z")
+"""Names of displacements and rotations."""
 PLACES = (2, 0, 1, 5, 3, 4)
 """Their places in (displacement along x, y, z, rotation about x, y, z)."""
 OF_SUBFRAME = "subframe"
 """Flexible support, as a column."""
 
 
-class MountModes(Tabled):
+class MountModes(Labelled):
     """Natural modes of a powertrain on its mounts: six, or twelve with the subframe under them.
 
     Modes whose frequencies agree within rounding form a group, of which only the sum of energies
@@ -31,66 +36,99 @@ class MountModes(Tabled):
     exactly zero, and are named in ``free``. Made by :meth:`Powertrain.modes`.
     """
 
+    _registry = MODES
+
     powertrain: Powertrain
     """The powertrain."""
     at_frequency: float | None
     """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
-    frequency: NDArray[np.float64] = computed()
-    """Natural frequencies without damping, Hz, ascending: (n_modes,)."""
-    shapes: NDArray[np.float64] = computed()
-    """Displacement of the CG and rotation, of unit mass, a column each: (n_axes, n_modes).
-
-    On a subframe those of its own CG follow: twelve rows.
-    """
-    energy: NDArray[np.float64] = computed()
-    """Kinetic energy of each mode along x, y, z and about x, y, z, %: (n_axes, n_modes).
-
-    Of a subframe, as in ``shapes``, six more.
-
-    100 φₖ (Mφ)ₖ: columns sum to 100, and entries can be below zero where the tensor of inertia
-    has products. Another definition, by diagonal entries of M alone, differs by several
-    points.
-    """
-    strain: NDArray[np.float64] = computed()
-    """Share of each mount in the elastic energy of each mode, %: (n_mounts, n_modes).
-
-    Mounts of a subframe follow those of the powertrain.
-    """
-    purity: NDArray[np.float64] = computed()
-    """Largest share of one coordinate in the kinetic energy, %: (n_modes,).
-
-    Of a group the mean of as many largest shares as it has modes.
-    """
-    loss_factor: NDArray[np.float64] = computed()
-    """Im λ/Re λ of the complex eigenvalues λ: (n_modes,)."""
-    damped_frequency: NDArray[np.float64] = computed()
-    """Square root of Re λ over 2π, Hz: (n_modes,)."""
     groups: tuple[tuple[int, ...], ...] = computed()
     """Numbers of the modes of equal frequency, from 1, as tuples of one or more."""
     free: tuple[str, ...] = computed()
     """Motions that no mount resists, in words; empty where all are resisted."""
 
     def __post_init__(self) -> None:
-        frequency, arrays, figures, group, free = self.powertrain._core.modes(self.at_frequency)
-        shapes, energy, strain = arrays
+        frequency, matrices, figures, group, free = self.powertrain._core.modes(self.at_frequency)
+        shapes, energy, strain = matrices
         purity, loss, damped = figures
         groups = tuple(
             tuple(k + 1 for k, first in enumerate(group) if first == number)
             for number in sorted({*group})
         )
-        self.__dict__.update(
-            frequency=frequency, shapes=shapes, energy=energy, strain=strain, purity=purity,
-            loss_factor=loss, damped_frequency=damped, groups=groups, free=tuple(free),
-        )  # fmt: skip
+        arrays = {
+            "frequency": frequency, "shapes": shapes, "energy": energy, "strain": strain,
+            "purity": purity, "loss_factor": loss, "damped_frequency": damped,
+            "subframe_share": energy[6:].sum(axis=0),
+        }  # fmt: skip
+        self.__dict__.update(_arrays=arrays, groups=groups, free=tuple(free))
         super().__post_init__()
 
     @property
-    def subframe_share(self) -> NDArray[np.float64]:
+    def _own_coords(self) -> Mapping[str, Any]:
+        count, moves = self._arrays["energy"].shape[::-1]
+        of_subframe = (f"{OF_SUBFRAME} {name}" for name in AXES)
+        coordinates = (*AXES, *of_subframe)[:moves]
+        mounts = tuple(self.powertrain._core.all_names)
+        return {"mode": np.arange(1, count + 1), "coordinate": coordinates, "mount": mounts}
+
+    @property
+    def frequency(self) -> Quantity[np.float64]:
+        """Natural frequencies without damping, Hz, ascending: (n_modes,)."""
+        return self._quantity("frequency")
+
+    @property
+    def shapes(self) -> Quantity[np.float64]:
+        """Displacement of the CG and rotation, of unit mass, a column each: (n_axes, n_modes).
+
+        On a subframe those of its own CG follow: twelve rows.
+        """
+        return self._quantity("shapes")
+
+    @property
+    def energy(self) -> Quantity[np.float64]:
+        """Kinetic energy of each mode along x, y, z and about x, y, z, %: (n_axes, n_modes).
+
+        Of a subframe, as in ``shapes``, six more.
+
+        100 φₖ (Mφ)ₖ: columns sum to 100, and entries can be below zero where the tensor of inertia
+        has products. Another definition, by diagonal entries of M alone, differs by several
+        points.
+        """
+        return self._quantity("energy")
+
+    @property
+    def strain(self) -> Quantity[np.float64]:
+        """Share of each mount in the elastic energy of each mode, %: (n_mounts, n_modes).
+
+        Mounts of a subframe follow those of the powertrain.
+        """
+        return self._quantity("strain")
+
+    @property
+    def purity(self) -> Quantity[np.float64]:
+        """Largest share of one coordinate in the kinetic energy, %: (n_modes,).
+
+        Of a group the mean of as many largest shares as it has modes.
+        """
+        return self._quantity("purity")
+
+    @property
+    def loss_factor(self) -> Quantity[np.float64]:
+        """Im λ/Re λ of the complex eigenvalues λ: (n_modes,)."""
+        return self._quantity("loss_factor")
+
+    @property
+    def damped_frequency(self) -> Quantity[np.float64]:
+        """Square root of Re λ over 2π, Hz: (n_modes,)."""
+        return self._quantity("damped_frequency")
+
+    @property
+    def subframe_share(self) -> Quantity[np.float64]:
         """Share of a subframe in the kinetic energy of each mode, %: (n_modes,).
 
         The rest is that of the powertrain; zero without a subframe.
         """
-        return read_only(self.energy[6:].sum(axis=0))
+        return self._quantity("subframe_share")
 
     @property
     def dominant(self) -> tuple[str, ...]:
@@ -115,8 +153,8 @@ class MountModes(Tabled):
 
     def _by_mode(self) -> list[Column]:
         return [
-            Column("mode", tuple(range(1, len(self.frequency) + 1))),
-            Column("f", self.frequency, "Hz"),
+            Column("mode", tuple(range(1, len(self.read("frequency")) + 1))),
+            Column("f", self.read("frequency"), "Hz"),
         ]
 
     @property
@@ -125,9 +163,9 @@ class MountModes(Tabled):
         columns = self._by_mode()
         columns += self._shares(0)
         if len(self.energy) > 6:
-            columns.append(Column(OF_SUBFRAME, self.subframe_share, "%", decimals=1))
-        columns.append(Column("purity", self.purity, "%", decimals=1))
-        columns.append(Column("loss factor", self.loss_factor))
+            columns.append(Column(OF_SUBFRAME, self.read("subframe_share"), "%", decimals=1))
+        columns.append(Column("purity", self.read("purity"), "%", decimals=1))
+        columns.append(Column("loss factor", self.read("loss_factor")))
         title = self._title("kinetic energy φₖ(Mφ)ₖ of each mode")
         return Table(title, tuple(columns), self._notes())
 
@@ -157,7 +195,7 @@ class MountModes(Tabled):
         return Table(self._title("elastic energy by mount"), tuple(columns), self._notes())
 
 
-class RollAxes(Tabled):
+class RollAxes(Labelled):
     """Axes about which a powertrain rolls: free, and on its mounts under a slow or steady torque.
 
     Under a steady torque mounts have their static stiffness, as in :meth:`Powertrain.static`; under
@@ -165,30 +203,16 @@ class RollAxes(Tabled):
     stiffnesses are. Made by :meth:`Powertrain.axes`.
     """
 
+    _registry = ROLL_AXES
+
     powertrain: Powertrain
     """The powertrain."""
     at_frequency: float | None
     """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
-    elastic: NDArray[np.float64] = computed()
-    """Direction of the elastic roll axis at rest, towards the flywheel: (n_axes,).
-
-    The axis of the screw that the powertrain makes under a steady torque about z.
-    """
-    dynamic_elastic: NDArray[np.float64] = computed()
-    """As ``elastic``, under a torque that oscillates slowly: (n_axes,)."""
-    torque_roll: NDArray[np.float64] = computed()
-    """Direction of the torque roll axis, through the CG, towards the flywheel: (n_axes,).
-
-    About it the free powertrain turns under an oscillating torque of the crank.
-    """
     torque_roll_deg: float = computed()
     """Angle of the torque roll axis to the crank's axis, degrees."""
-    mount_distances: NDArray[np.float64] = computed()
-    """Distance of each mount from the torque roll axis, m: (n_mounts,)."""
     elastic_deg: float = computed()
     """Angle of the elastic roll axis at rest to the crank's axis, degrees."""
-    elastic_foot: NDArray[np.float64] = computed()
-    """Point of the elastic roll axis at rest next to the CG, m: (n_axes,)."""
     angle_deg: float = computed()
     """Angle between torque roll axis and elastic roll axis at rest, degrees."""
     distance: float = computed()
@@ -199,8 +223,6 @@ class RollAxes(Tabled):
     """Steady torque about z over the rotation about z that it makes, N·m/rad."""
     dynamic_elastic_deg: float = computed()
     """As ``elastic_deg``, with the dynamic stiffness, degrees."""
-    dynamic_elastic_foot: NDArray[np.float64] = computed()
-    """As ``elastic_foot``, with the dynamic stiffness, m: (n_axes,)."""
     dynamic_angle_deg: float = computed()
     """As ``angle_deg``, with the dynamic stiffness, degrees; 0 where roll is decoupled."""
     dynamic_distance: float = computed()
@@ -212,18 +234,59 @@ class RollAxes(Tabled):
 
     def __post_init__(self) -> None:
         free, free_deg, distances, elastic = self.powertrain._core.axes(self.at_frequency)
-        values = {"torque_roll": read_only(np.array(free)), "torque_roll_deg": free_deg}
+        values = {"torque_roll_deg": free_deg}
+        arrays = {"torque_roll": np.array(free), "mount_distances": distances}
         for before, ((direction, foot), figures) in zip(("", "dynamic_"), elastic, strict=True):
             *angles, pitch, compliance = figures
             named: dict[str, Any] = dict(
                 zip(("elastic_deg", "angle_deg", "distance"), angles, strict=True)
             )
             named |= {"pitch": pitch, "roll_stiffness": 1.0 / compliance}
-            named |= {"elastic": read_only(np.array(direction))}
-            named |= {"elastic_foot": read_only(np.array(foot))}
             values |= {f"{before}{name}": value for name, value in named.items()}
-        self.__dict__.update(values, mount_distances=distances)
+            arrays |= {f"{before}elastic": np.array(direction)}
+            arrays |= {f"{before}elastic_foot": np.array(foot)}
+        self.__dict__.update(values, _arrays=arrays)
         super().__post_init__()
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        return {"mount": self.powertrain.names}
+
+    @property
+    def elastic(self) -> Quantity[np.float64]:
+        """Direction of the elastic roll axis at rest, towards the flywheel: (n_axes,).
+
+        The axis of the screw that the powertrain makes under a steady torque about z.
+        """
+        return self._quantity("elastic")
+
+    @property
+    def dynamic_elastic(self) -> Quantity[np.float64]:
+        """As ``elastic``, under a torque that oscillates slowly: (n_axes,)."""
+        return self._quantity("dynamic_elastic")
+
+    @property
+    def torque_roll(self) -> Quantity[np.float64]:
+        """Direction of the torque roll axis, through the CG, towards the flywheel: (n_axes,).
+
+        About it the free powertrain turns under an oscillating torque of the crank.
+        """
+        return self._quantity("torque_roll")
+
+    @property
+    def mount_distances(self) -> Quantity[np.float64]:
+        """Distance of each mount from the torque roll axis, m: (n_mounts,)."""
+        return self._quantity("mount_distances")
+
+    @property
+    def elastic_foot(self) -> Quantity[np.float64]:
+        """Point of the elastic roll axis at rest next to the CG, m: (n_axes,)."""
+        return self._quantity("elastic_foot")
+
+    @property
+    def dynamic_elastic_foot(self) -> Quantity[np.float64]:
+        """As ``elastic_foot``, with the dynamic stiffness, m: (n_axes,)."""
+        return self._quantity("dynamic_elastic_foot")
 
     @property
     def table(self) -> Table:

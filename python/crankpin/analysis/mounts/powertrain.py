@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from crankpin import _core
 from crankpin._support import files, inputs, labels, units
 from crankpin._support.frames import Framed
+from crankpin._support.messages import suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import Input
 from crankpin._support.tables import Column, Table
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
 from crankpin.analysis.mounts import modes as natural

@@ -11,10 +11,10 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
+from crankpin._support.messages import warn
 from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOTIONS, MOUNTED
 from crankpin._support.record import AbsentError, changed, read_only
 from crankpin._support.tables import Column, Item, Table
-from crankpin._support.warnings import warn
 from crankpin.analysis import export
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.export import VALUES
@@ -84,10 +84,9 @@ def _warn_of_free_motion(response: MountResponse) -> None:
         return
     if free:
         are, them = ("is", "it") if len(free) == 1 else ("are", "them")
-        warn(
-            f"mounts = {', '.join(powertrain.names)}: {'; '.join(free)} {are} free, as of a body "
-            f"without mounts; add a mount that resists {them}, or stiffness"
-        )
+        motions = f"{'; '.join(free)} {are} free, as of a body without mounts"
+        hint = f"add a mount that resists {them}, or stiffness"
+        warn("mounts", f"= {', '.join(powertrain.names)}: {motions}", hint)
 
 
 class PointMotion(Labelled):

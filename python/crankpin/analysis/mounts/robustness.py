@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from crankpin._support import inputs, units
-from crankpin._support.frames import Frames, Tabled
-from crankpin._support.record import computed, read_only
+from crankpin._support.quantities import ROBUSTNESS
+from crankpin._support.record import computed
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.labelled import Labelled
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from crankpin._support.frames import Frames
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.analysis.quantity import Quantity
 
 
-class MountRobustness(Tabled):
+class MountRobustness(Labelled):
     """Bounds of natural frequencies and of purity within tolerances of a powertrain.
 
     Every frequency grows with each stiffness, and falls with mass and inertia (Courant and
@@ -28,6 +30,8 @@ class MountRobustness(Tabled):
     is reported is the least found, no bound. Tolerances are those of the body and its own mounts; a
     subframe is as it is. Made by :meth:`Powertrain.robustness`.
     """
+
+    _registry = ROBUSTNESS
 
     powertrain: Powertrain
     """The powertrain."""
@@ -43,21 +47,6 @@ class MountRobustness(Tabled):
     """True if the axes of a mount are at either end each by itself in corners."""
     at_frequency: float | None
     """Frequency at which dynamic stiffness is taken, Hz; None where it does not depend on it."""
-    frequency: NDArray[np.float64] = computed()
-    """Natural frequencies without tolerances, Hz, ascending: (n_modes,)."""
-    purity: NDArray[np.float64] = computed()
-    """Purity of each mode without tolerances, %: (n_modes,)."""
-    cg_slope: NDArray[np.float64] = computed()
-    """Derivatives of the frequencies by the place of the CG, Hz/m: (n_axes, n_modes).
-
-    Of modes of one frequency the mean.
-    """
-    least_purity: NDArray[np.float64] = computed()
-    """Least purity of each mode found within the tolerance of stiffness, %: (n_modes,).
-
-    By a search: at all corners, at 4096 random points, and from the worst of them along lines.
-    """
-    _ends: tuple[NDArray[np.float64], ...] = computed()
     _factors: Any = computed()
 
     def __post_init__(self) -> None:
@@ -65,31 +54,62 @@ class MountRobustness(Tabled):
         nominal, ends, slope, factors = self.powertrain._core.robustness(
             tolerances, self.at_frequency
         )
-        frequency, purity, least = map(read_only, nominal)
-        self.__dict__.update(
-            frequency=frequency, purity=purity, least_purity=least, cg_slope=slope, _ends=ends,
-            _factors=factors,
-        )  # fmt: skip
+        names = ("frequency", "purity", "least_purity")
+        arrays = dict(zip(names, map(np.asarray, nominal), strict=True)) | {"cg_slope": slope}
+        ranges = ("frequency_bounds", "mass_bounds", "cg_range")
+        arrays |= dict(zip(ranges, ends, strict=True))
+        self.__dict__.update(_arrays=arrays, _factors=factors)
         super().__post_init__()
 
     @property
-    def frequency_bounds(self) -> NDArray[np.float64]:
+    def _own_coords(self) -> Mapping[str, Any]:
+        modes = np.arange(1, self._arrays["frequency"].size + 1)
+        return {"mode": modes, "coordinate": ("x", "y", "z"), "bound": ("least", "largest")}
+
+    @property
+    def frequency(self) -> Quantity[np.float64]:
+        """Natural frequencies without tolerances, Hz, ascending: (n_modes,)."""
+        return self._quantity("frequency")
+
+    @property
+    def purity(self) -> Quantity[np.float64]:
+        """Purity of each mode without tolerances, %: (n_modes,)."""
+        return self._quantity("purity")
+
+    @property
+    def cg_slope(self) -> Quantity[np.float64]:
+        """Derivatives of the frequencies by the place of the CG, Hz/m: (n_axes, n_modes).
+
+        Of modes of one frequency the mean.
+        """
+        return self._quantity("cg_slope")
+
+    @property
+    def least_purity(self) -> Quantity[np.float64]:
+        """Least purity of each mode found within the tolerance of stiffness, %: (n_modes,).
+
+        By a search: at all corners, at 4096 random points, and from the worst of them along lines.
+        """
+        return self._quantity("least_purity")
+
+    @property
+    def frequency_bounds(self) -> Quantity[np.float64]:
         """Least and largest frequencies within the tolerance of stiffness, Hz: (2, n_modes)."""
-        return self._ends[0]
+        return self._quantity("frequency_bounds")
 
     @property
-    def mass_bounds(self) -> NDArray[np.float64]:
+    def mass_bounds(self) -> Quantity[np.float64]:
         """Least and largest frequencies within those of mass and inertia, Hz: (2, n_modes)."""
-        return self._ends[1]
+        return self._quantity("mass_bounds")
 
     @property
-    def cg_range(self) -> NDArray[np.float64]:
+    def cg_range(self) -> Quantity[np.float64]:
         """Least and largest frequencies with the CG at eight corners, Hz: (2, n_modes).
 
         The corners of the cube ± ``cg`` about its place, and that; frequencies are not monotone in
         it, so that these are no bounds.
         """
-        return self._ends[2]
+        return self._quantity("cg_range")
 
     def least_pure(self, mode: int) -> Mapping[str, tuple[float, ...]]:
         """Return the stiffnesses at which a mode was found least pure.
@@ -119,7 +139,7 @@ class MountRobustness(Tabled):
     def table(self) -> Table:
         """Frequencies and their bounds, purity and the least that was found."""
         columns = self._modes()
-        bounds = [("f", self.frequency)]
+        bounds = [("f", self.read("frequency"))]
         if any(self.stiffness):
             bounds += zip(("f least", "f largest"), self.frequency_bounds, strict=True)
         if self.mass or self.inertia:
@@ -128,7 +148,10 @@ class MountRobustness(Tabled):
         if self.cg:
             bounds += zip(("f least by CG", "f largest by CG"), self.cg_range, strict=True)
         columns += [Column(head, values, "Hz") for head, values in bounds]
-        for head, values in (("purity", self.purity), ("least found", self.least_purity)):
+        for head, values in (
+            ("purity", self.read("purity")),
+            ("least found", self.read("least_purity")),
+        ):
             columns.append(Column(head, values, "%", decimals=1))
         shares = sorted({100.0 * share for share in self.stiffness})
         parts: list[str] = [f"stiffness ± {' or '.join(f'{share:g}' for share in shares)} %"]
@@ -140,7 +163,7 @@ class MountRobustness(Tabled):
         return Table(title, tuple(columns), note if any(self.stiffness) else "")
 
     def _modes(self) -> list[Column]:
-        return [Column("mode", tuple(range(1, len(self.frequency) + 1)))]
+        return [Column("mode", tuple(range(1, len(self.read("frequency")) + 1)))]
 
     @property
     def frames(self) -> Frames:

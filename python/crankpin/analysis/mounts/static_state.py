@@ -7,21 +7,25 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin._support import inputs, labels, units
-from crankpin._support.frames import Tabled
-from crankpin._support.record import computed, read_only
+from crankpin._support.quantities import RESTING
+from crankpin._support.record import computed
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.labelled import Labelled
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from collections.abc import Mapping
+
+    from numpy.typing import ArrayLike
 
     from crankpin.analysis.mounts.powertrain import Powertrain
+    from crankpin.analysis.quantity import Quantity
 
 GRAVITY = (0.0, -9.80665, 0.0)
 """Standard gravity of an upright engine, m/s²."""
 
 
-class StaticState(Tabled):
+class StaticState(Labelled):
     """A powertrain at rest on the static stiffness of its mounts, and of a subframe's.
 
     What is above a subframe follows it as a rigid body: displacements are larger than on firm
@@ -29,6 +33,8 @@ class StaticState(Tabled):
 
     Made by :meth:`Powertrain.static`.
     """
+
+    _registry = RESTING
 
     powertrain: Powertrain
     """The powertrain."""
@@ -40,23 +46,6 @@ class StaticState(Tabled):
     """Force of a propeller's shaft on the unit, N."""
     thrust_at: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Place where it acts, m."""
-    sag: NDArray[np.float64] = computed()
-    """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
-    sag_deg: NDArray[np.float64] = computed()
-    """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
-    wind_up: NDArray[np.float64] = computed()
-    """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
-    wind_up_deg: NDArray[np.float64] = computed()
-    """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
-    thrust_shift: NDArray[np.float64] = computed()
-    """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
-    thrust_deg: NDArray[np.float64] = computed()
-    """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
-    ground_preload: NDArray[np.float64] = computed()
-    """Force of each mount of a subframe on what carries it, of all causes, N.
-
-    Of shape (n_mounts, n_axes); empty without a subframe.
-    """
     support_margin: float = computed()
     """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
 
@@ -64,61 +53,103 @@ class StaticState(Tabled):
     """
     support_polygon: tuple[str, ...] = computed()
     """Names of the mounts at the corners of their polygon, seen along gravity, in order."""
-    _forces: NDArray[np.float64] = computed()
 
     def __post_init__(self) -> None:
         core = self.powertrain._core
         push = [list(self.thrust), list(self.thrust_at)]
         displacement, forces, margin, corners = core.static(list(self.gravity), -self.torque, push)
+        of_mounts, count = np.array(forces), len(self.powertrain.mounts)
         moved = np.array(displacement)
-        shift = [read_only(row) for row in moved[:, :3]]
-        turn_deg = [read_only(row) for row in np.degrees(moved[:, 3:])]
-        self.__dict__.update(zip(("sag", "wind_up", "thrust_shift"), shift, strict=True))
-        self.__dict__.update(zip(("sag_deg", "wind_up_deg", "thrust_deg"), turn_deg, strict=True))
+        arrays = {"ground_preload": of_mounts[:, count:].sum(axis=0)}
+        arrays["preload"] = of_mounts[:, :count].sum(axis=0)
+        names = (("sag", "weight"), ("wind_up", "torque"), ("thrust_shift", "thrust"))
+        for (name, cause), motion, pushed in zip(names, moved, of_mounts, strict=True):
+            arrays[name] = motion[:3]
+            arrays[f"{name.removesuffix('_shift')}_deg"] = np.degrees(motion[3:])
+            arrays[f"{cause}_force"] = pushed[:count]
         self.__dict__.update(
-            ground_preload=read_only(sum(np.array(forces)[:, len(self.powertrain.mounts) :])),
             support_margin=margin,
             support_polygon=tuple(self.powertrain.names[k] for k in corners),
-            _forces=read_only(np.array(forces)),
+            _arrays=arrays,
+            _forces=of_mounts,
         )
         super().__post_init__()
 
     @property
-    def weight_force(self) -> NDArray[np.float64]:
+    def _own_coords(self) -> Mapping[str, Any]:
+        names, count = tuple(self.powertrain._core.all_names), len(self.powertrain.mounts)
+        return {"mount": names[:count], "subframe_mount": names[count:]}
+
+    @property
+    def sag(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
+        return self._quantity("sag")
+
+    @property
+    def sag_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
+        return self._quantity("sag_deg")
+
+    @property
+    def wind_up(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
+        return self._quantity("wind_up")
+
+    @property
+    def wind_up_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
+        return self._quantity("wind_up_deg")
+
+    @property
+    def thrust_shift(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
+        return self._quantity("thrust_shift")
+
+    @property
+    def thrust_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
+        return self._quantity("thrust_deg")
+
+    @property
+    def ground_preload(self) -> Quantity[np.float64]:
+        """Force of each mount of a subframe on what carries it, of all causes, N.
+
+        Of shape (n_mounts, n_axes); empty without a subframe.
+        """
+        return self._quantity("ground_preload")
+
+    @property
+    def weight_force(self) -> Quantity[np.float64]:
         """Force of each mount on what carries it due to the weight, N: (n_mounts, n_axes)."""
-        return self._of_cause(0)
+        return self._quantity("weight_force")
 
     @property
-    def torque_force(self) -> NDArray[np.float64]:
+    def torque_force(self) -> Quantity[np.float64]:
         """Force of each mount on what carries it due to the torque, N: (n_mounts, n_axes)."""
-        return self._of_cause(1)
+        return self._quantity("torque_force")
 
     @property
-    def thrust_force(self) -> NDArray[np.float64]:
+    def thrust_force(self) -> Quantity[np.float64]:
         """Force of each mount on what carries it due to the thrust, N: (n_mounts, n_axes)."""
-        return self._of_cause(2)
-
-    def _of_cause(self, cause: int) -> NDArray[np.float64]:
-        """Return forces of the powertrain's own mounts."""
-        forces: NDArray[np.float64] = self._forces[cause]
-        return forces[: len(self.powertrain.mounts)]
+        return self._quantity("thrust_force")
 
     @property
-    def preload(self) -> NDArray[np.float64]:
+    def preload(self) -> Quantity[np.float64]:
         """Force of each mount on what carries it, of all causes, N: (n_mounts, n_axes)."""
-        return read_only(self.weight_force + self.torque_force + self.thrust_force)
+        return self._quantity("preload")
 
     @property
     def table(self) -> Table:
         """Forces of the mounts on what carries them, by cause; also of those of a subframe."""
         columns = [Column("mount", tuple(self.powertrain._core.all_names))]
         causes = ["weight", "torque", *(["thrust"] if any(self.thrust) else [])]
-        for cause, forces in zip(causes, self._forces, strict=False):
+        for cause, forces in zip(causes, self.__dict__["_forces"], strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
         side = "inside" if self.support_margin > 0.0 else "outside"
+        sag = tuple(1e3 * self.read("sag"))
         note = units.Text(
-            "Sag of the CG ", units.Figure((*1e3 * self.sag,), "mm", ".4g", "({}, {}, {})"),
+            "Sag of the CG ", units.Figure(sag, "mm", ".4g", "({}, {}, {})"),
             f"; wind-up {self.wind_up_deg[2]:.4g}° about z under ",
             units.figure(self.torque, "N·m", 6),
             f" that leave the unit. The CG is {side} the mounts' polygon by ",

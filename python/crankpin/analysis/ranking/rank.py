@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 from crankpin._support import inputs
+from crankpin._support.messages import Hint, suppressed
 from crankpin._support.parameters import documented
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.ranking.objectives import LEFT, tie_tolerance
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
@@ -146,7 +146,8 @@ def rank(
     tolerance = tie_tolerance(tie_rtol)
     between = inputs.flag("refine", refine)
     if between and bank_angle_deg is None:
-        raise inputs.rejected("refine", True, "searches between bank angles; give bank_angle_deg")
+        hint = Hint.of("searches between bank angles; give `bank_angle_deg`")
+        raise inputs.rejected("refine", True, hint)
     of_engines = _engines(engines, cylinder, spacing)
     with suppressed("mean piston speed"):
         swept = sweep(

@@ -13,6 +13,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
+from crankpin._support.messages import Hint
 from crankpin._support.parameters import documented
 from crankpin._support.quantities import QUANTITIES, kind_of
 from crankpin._support.record import changed, read_only
@@ -164,7 +165,8 @@ def sweep(
     held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     if cycle is None and load is not None:
-        raise inputs.rejected("load", load, "applies to a cycle map; give cycle=CycleMap(…)")
+        hint: str = Hint.of("applies to a cycle map; give `cycle=CycleMap(…)`")
+        raise inputs.rejected("load", load, hint)
     if cycle is None and crankcase is not None:
         hint = "applies to a cycle map; engine.with_cycle(…, crankcase=…) has that of an engine"
         raise inputs.rejected("crankcase", crankcase, hint)

@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._support import inputs, lazy, units
 from crankpin._support import progress as progress_bar
 from crankpin._support.frames import Tabled
+from crankpin._support.messages import Hint
 from crankpin._support.record import Record
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.request import engine_core
@@ -203,7 +204,7 @@ def match_parts(
             f"{parts_text} suffice for {several} of {count} cylinders; give 1 to {several}",
         )
     if by == "spread" and orders is not None:
-        raise inputs.rejected("orders", orders, 'needs by="balance"; leave it out')
+        raise inputs.rejected("orders", orders, Hint.of('needs `by="balance"`; leave it out'))
     chosen_orders = inputs.explicit_orders((1, 2) if orders is None else orders)
     start = inputs.whole("seed", seed, 0)
     bar = progress_bar.checked(progress)

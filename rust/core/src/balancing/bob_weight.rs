@@ -3,6 +3,7 @@
 use super::TurningPart;
 use crate::Complex64;
 use crate::engine::{CrankIndex, Engine, Unbalance};
+use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -42,6 +43,21 @@ pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
 /// Bob weight, kg, of a rotating and a reciprocating mass: all of the one and a share of the other.
 pub(super) fn bob_weight([rotating, reciprocating]: [f64; 2], factor: f64) -> f64 {
     rotating + factor * reciprocating
+}
+
+/// Amount, kg·m, and direction from the crankpin, degrees, of the weight at the pin that removes the forward part of
+/// its cylinder's first order: half the reciprocating mass, whatever the bank, and all that rotates.
+///
+/// With an offset piston pin the first harmonic is a complex number, and the weight beside the opposite of the pin.
+pub fn forward_weight(
+    cylinder: &Cylinder,
+    rotating_mass: f64,
+    cancel: &Cancel,
+) -> Result<[f64; 2]> {
+    let first = cylinder.mechanism().force(&[1], cancel)?[0];
+    let mass = first * (0.5 * cylinder.reciprocating_mass()) + rotating_mass;
+    let weight = mass * -cylinder.crank_radius();
+    Ok([weight.norm(), rounded(weight.arg().to_degrees(), 13)])
 }
 
 /// Force, moment and roll torque of order 1 by balance factor, over ω².

@@ -194,7 +194,7 @@ impl Engine {
             return Ok(());
         }
         let hint = format!(
-            "the engine's strokes are {}: give a cycle of as many, or an engine with strokes {}",
+            "the engine's strokes are {}: give a cycle of as many, or an engine with `strokes: {}`",
             self.strokes.number(),
             cycle.strokes().number()
         );

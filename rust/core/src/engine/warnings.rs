@@ -61,13 +61,10 @@ const GRAMS: &str = "was it given in grams?";
 const GRAM_LENGTHS: &str = "was it given in g·mm or g·m?";
 
 /// A warning of a value, in a unit, beside an engine's size.
-fn beside(argument: &str, value: f64, unit: &str, engine: &Engine, hint: &str) -> Warning {
+fn beside(argument: &str, value: f64, unit: &str, engine: &Engine, hint: &'static str) -> Warning {
     let radius = figure(engine.largest_crank_radius());
     let value = figure(value);
-    Warning::new(
-        argument,
-        format!("{argument} = {value} {unit} at a crank radius of {radius} m: {hint}"),
-    )
+    Warning::new(argument, format!("= {value} {unit} at a crank radius of {radius} m"), hint)
 }
 
 fn figure(value: f64) -> String {
@@ -125,15 +122,14 @@ fn distinct(found: Vec<Warning>) -> Vec<Warning> {
 pub fn cylinder(radius: f64, rod_length: f64) -> Vec<Warning> {
     let mut found = Vec::new();
     if radius > LARGEST_CRANK_RADIUS {
-        let text = format!("crank_radius = {} m: {MILLIMETRES}", figure(radius));
-        found.push(Warning::new("crank_radius", text));
+        found.push(Warning::new("crank_radius", format!("= {} m", figure(radius)), MILLIMETRES));
     }
     let [low, high] = RODS_IN_MILLIMETRES;
     let ratio = rod_length / radius;
     if rod_length > LONGEST_ROD && low < ratio && ratio < high {
         let [rod, radius] = [rod_length, radius].map(figure);
-        let text = format!("rod_length = {rod} m at a crank radius of {radius} m: {MILLIMETRES}");
-        found.push(Warning::new("rod_length", text));
+        let fault = format!("= {rod} m at a crank radius of {radius} m");
+        found.push(Warning::new("rod_length", fault, MILLIMETRES));
     }
     found
 }
@@ -144,8 +140,8 @@ pub fn bore(diameter: f64, stroke: f64) -> Option<Warning> {
     let ratio = diameter / stroke;
     let differ = !(1.0 / LARGEST_BORE < ratio && ratio < LARGEST_BORE);
     let [diameter, stroke] = [diameter, stroke].map(figure);
-    let text = format!("bore = {diameter} m and stroke = {stroke} m: are both in metres?");
-    differ.then(|| Warning::new("bore", text))
+    let fault = format!("= {diameter} m and stroke = {stroke} m");
+    differ.then(|| Warning::new("bore", fault, "are both in metres?"))
 }
 
 /// Of places in millimetres and masses in grams.
@@ -177,8 +173,8 @@ pub fn mass(engine: &Engine, argument: &str, mass: f64) -> Option<Warning> {
 /// Of an unbalance that no engine has, kg·m.
 #[must_use]
 pub fn unbalance(amount: f64) -> Option<Warning> {
-    let text = || format!("amount = {} kg·m: {GRAM_LENGTHS}", figure(amount));
-    (amount > LARGEST_UNBALANCE).then(|| Warning::new("amount", text()))
+    let fault = || format!("= {} kg·m", figure(amount));
+    (amount > LARGEST_UNBALANCE).then(|| Warning::new("amount", fault(), GRAM_LENGTHS))
 }
 
 /// Of an unbalance that is too large for an engine, kg·m.
@@ -220,11 +216,9 @@ pub fn place(engine: &Engine, argument: &str, at: f64, middle: f64) -> Option<Wa
 #[must_use]
 pub fn piston_speed(speed: f64) -> Option<Warning> {
     let is_fast = FASTEST_PISTON < speed && speed < f64::INFINITY;
-    let text = format!(
-        "mean piston speed is {speed:.0} m/s, more than any engine's ({FASTEST_PISTON:.0}): were lengths \
-         given in millimetres? They are metres here, and masses kilograms."
-    );
-    is_fast.then(|| Warning::new("rpm", text))
+    let fault = format!("is {speed:.0} m/s, more than any engine's ({FASTEST_PISTON:.0})");
+    let hint = "were lengths given in millimetres? They are metres here, and masses kilograms.";
+    is_fast.then(|| Warning::new("rpm", fault, hint).about("mean piston speed".into()))
 }
 
 /// Of a moment of inertia that no flywheel of an engine has, kg·m².
@@ -248,16 +242,15 @@ pub fn pin_split(engine: &Engine, split: Angle) -> Option<Warning> {
     // With the opposite split the left pins are 2·split further back, their TDCs as much later.
     let later = |(tdc, bank): (&f64, f64)| if bank == left { tdc + 2.0 * degrees } else { *tdc };
     let other: Vec<f64> = tdc.iter().zip(banks).map(later).collect();
-    let text = || {
+    let fault = || {
+        let [split, opposite] = [degrees, -degrees].map(figure);
         format!(
-            "pin_split_deg = {}: this engine fires unevenly; with pin_split_deg = {} it would fire \
-             evenly. The split is left pin minus right pin in the direction of rotation, bank angle \
-             minus firing interval",
-            figure(degrees),
-            figure(-degrees)
+            "= {split}: this engine fires unevenly; with pin_split_deg = {opposite} it would fire evenly"
         )
     };
-    fires_evenly(&other).then(|| Warning::new("pin_split_deg", text()))
+    let hint = "the split is left pin minus right pin in the direction of rotation, bank angle minus \
+                firing interval";
+    fires_evenly(&other).then(|| Warning::new("pin_split_deg", fault(), hint))
 }
 
 /// Whether an even number of four-stroke cylinders with these TDCs, degrees, can fire evenly.

@@ -40,6 +40,21 @@ pub struct InertialActuator {
     pub damping_ratio: f64,
 }
 
+/// Force of an actuator's motor over that on the powertrain, where this does not move: its mass on a spring, of a
+/// resonance and damping over critical, takes the rest. At a frequency, Hz.
+#[must_use]
+pub fn motor_share(resonance: f64, damping_ratio: f64, frequency: f64) -> Complex64 {
+    let (share, own) = scaled_share(resonance, damping_ratio, frequency);
+    share / (own * own)
+}
+
+/// That share over the square of the larger of both frequencies, which may lie far apart, and the frequency over it.
+fn scaled_share(resonance: f64, damping_ratio: f64, frequency: f64) -> (Complex64, f64) {
+    let larger = frequency.max(resonance);
+    let [own, sprung] = [frequency / larger, resonance / larger];
+    (Complex64::new(own * own - sprung * sprung, -2.0 * damping_ratio * own * sprung), own)
+}
+
 impl InertialActuator {
     /// Load about the CG of a force of 1 N.
     fn load(&self, powertrain: &Powertrain) -> nalgebra::Vector6<f64> {
@@ -63,11 +78,8 @@ impl InertialActuator {
                             loss_factor or damping";
                 Error::figure("frequency", frequency, hint)
             })?;
-            // All over the square of the larger of both frequencies, which may lie far apart.
-            let larger = frequency.max(self.resonance);
-            let [own, sprung] = [frequency / larger, self.resonance / larger];
+            let (share, own) = scaled_share(self.resonance, self.damping_ratio, frequency);
             let loss = 2.0 * self.damping_ratio * own;
-            let share = Complex64::new(own * own - sprung * sprung, -loss * sprung);
             let receptance: Complex64 = unit.dot(&state.motion);
             let resonance = TAU * self.resonance * own;
             let spring =

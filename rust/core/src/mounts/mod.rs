@@ -25,7 +25,7 @@ use nalgebra::{Cholesky, Matrix3x6, SMatrix, Vector3};
 pub use self::axes::{ElasticAxis, RollAxes, axes};
 pub use self::bodies::matrices;
 pub use self::body::{Products, RigidBody};
-pub use self::feedback::InertialActuator;
+pub use self::feedback::{InertialActuator, motor_share};
 pub use self::footprint::support_polygon;
 pub use self::modes::{EQUAL_FREQUENCIES, FreeMotion, Modes, free_motions, modes};
 pub(crate) use self::modes::{NaturalModes, frequency_and_purity, natural_at};

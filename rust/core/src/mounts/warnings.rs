@@ -33,7 +33,8 @@ pub fn of_powertrain(powertrain: &Powertrain) -> Vec<Warning> {
 
 fn within(place: &str, powertrain: &Powertrain) -> Vec<Warning> {
     let named = |of: String, found: Vec<Warning>| {
-        let name = move |each: Warning| Warning::new(&format!("{of}.{}", each.argument), each.text);
+        let name =
+            move |each: Warning| Warning { argument: format!("{of}.{}", each.argument), ..each };
         found.into_iter().map(name)
     };
     let mut found: Vec<Warning> = tensor(powertrain.body()).into_iter().collect();
@@ -52,16 +53,17 @@ fn within(place: &str, powertrain: &Powertrain) -> Vec<Warning> {
 #[must_use]
 pub fn tensor(body: &RigidBody) -> Option<Warning> {
     let missing = body.missing_inertia();
-    let text = || {
+    let fault = || {
         format!(
-            "inertia has principal moments of {} kg·m²: the largest is more than the sum of the others, \
-             which lacks {} % of it; no body has such a tensor. Is it about the centre of gravity, with the \
-             right sign of its products?",
+            "has principal moments of {} kg·m²: the largest is more than the sum of the others, which \
+             lacks {} % of it",
             body.principal_moments().map(figure).join(", "),
             significant(100.0 * missing, 3)
         )
     };
-    (missing > MOST_MISSING).then(|| Warning::new("inertia", text()))
+    let hint = "no body has such a tensor. Is it about the centre of gravity, with the right sign of its \
+                products?";
+    (missing > MOST_MISSING).then(|| Warning::new("inertia", fault(), hint))
 }
 
 /// Of a body whose figures are in other units.
@@ -71,17 +73,13 @@ pub fn body(body: &RigidBody) -> Vec<Warning> {
     let [smallest, _, largest] = radii;
     let between = [smallest, largest].map(|radius| significant(radius, 3)).join(" to ");
     let units = if smallest < GYRATION[0] || largest > GYRATION[1] {
-        let text = format!(
-            "inertia has radii of gyration from {between} m: are mass and inertia in kg and kg·m²?"
-        );
-        Some(Warning::new("inertia", text))
+        let fault = format!("has radii of gyration from {between} m");
+        Some(Warning::new("inertia", fault, "are mass and inertia in kg and kg·m²?"))
     } else if body.mass() > DENSEST * radii.iter().product::<f64>() {
-        let text = format!(
-            "mass = {} kg has radii of gyration from {between} m, so dense is no metal: was it given in \
-             grams?",
-            figure(body.mass())
-        );
-        Some(Warning::new("mass", text))
+        let mass = figure(body.mass());
+        let fault =
+            format!("= {mass} kg has radii of gyration from {between} m, so dense is no metal");
+        Some(Warning::new("mass", fault, "was it given in grams?"))
     } else {
         None
     };
@@ -94,8 +92,8 @@ pub fn mount(figures: &MountFigures) -> Vec<Warning> {
     let MountFigures { name, loss_factor, damping, .. } = figures;
     let mut found = Vec::new();
     let mut report = |argument, value: f64, unit, hint| {
-        let text = format!("{argument} of mount '{name}' = {}{unit}: {hint}", figure(value));
-        found.push(Warning::new(argument, text));
+        let warning = Warning::new(argument, format!("= {}{unit}", figure(value)), hint);
+        found.push(warning.about(format!("{argument} of mount '{name}'")));
     };
     if let Some(&loss) = loss_factor.iter().find(|&&loss| loss > LARGEST_LOSS) {
         report("loss_factor", loss, "", "was it given in per cent?");
@@ -117,8 +115,8 @@ pub fn mount(figures: &MountFigures) -> Vec<Warning> {
         [0, 1, 2].map(|axis| most[axis].max(row[axis].norm()))
     });
     found.extend(stiffness("table", name, &largest));
-    let at = place(&format!("at of mount '{name}'"), figures.at);
-    found.extend(at.map(|of_it| Warning::new("at", of_it.text)));
+    let at = place("at", figures.at);
+    found.extend(at.map(|warning| warning.about(format!("at of mount '{name}'"))));
     found
 }
 
@@ -127,9 +125,9 @@ pub fn mount(figures: &MountFigures) -> Vec<Warning> {
 pub fn stiffness(argument: &str, mount: &str, values: &[f64]) -> Option<Warning> {
     let [least, most] = STIFFNESS;
     let wrong = values.iter().find(|&&value| value != 0.0 && !(least..=most).contains(&value))?;
-    let value = figure(*wrong);
-    let text = format!("{argument} of mount '{mount}' = {value} N/m: was it given in N/mm?");
-    Some(Warning::new(argument, text))
+    let fault = format!("= {} N/m", figure(*wrong));
+    let warning = Warning::new(argument, fault, "was it given in N/mm?");
+    Some(warning.about(format!("{argument} of mount '{mount}'")))
 }
 
 /// Of a place on a body that is in millimetres, m.
@@ -137,6 +135,6 @@ pub fn stiffness(argument: &str, mount: &str, values: &[f64]) -> Option<Warning>
 pub fn place(argument: &str, at: [f64; 3]) -> Option<Warning> {
     let is_far = at.iter().any(|along| along.abs() > FARTHEST_MOUNT);
     let places = at.map(figure).join(", ");
-    let text = || format!("{argument} = ({places}) m: was it given in millimetres?");
-    is_far.then(|| Warning::new(argument, text()))
+    let fault = || format!("= ({places}) m");
+    is_far.then(|| Warning::new(argument, fault(), "was it given in millimetres?"))
 }

@@ -10,15 +10,30 @@ pub type Result<T> = std::result::Result<T, Error>;
 /// A figure that no engine has, or almost none: what is computed of it is right, and hardly what was meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
-    /// Name of the figure.
+    /// Name of the figure, by its place in a file: `powertrain.mounts[2].at`.
     pub argument: String,
-    /// The figure, its value and the likely mistake, in a sentence.
-    pub text: String,
+    /// What the sentence begins with: `at of mount 'rear'`.
+    pub about: String,
+    /// What it is: `= (0, 200, 0) m`.
+    pub fault: String,
+    /// The likely mistake, the same of all figures.
+    pub hint: &'static str,
 }
 
 impl Warning {
-    pub(crate) fn new(argument: &str, text: String) -> Self {
-        Self { argument: argument.to_owned(), text }
+    pub(crate) fn new(argument: &str, fault: String, hint: &'static str) -> Self {
+        Self { argument: argument.to_owned(), about: argument.to_owned(), fault, hint }
+    }
+
+    /// The same under another beginning of its sentence.
+    pub(crate) fn about(self, about: String) -> Self {
+        Self { about, ..self }
+    }
+
+    /// The sentence.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!("{} {}: {}", self.about, self.fault, self.hint)
     }
 }
 
@@ -34,6 +49,16 @@ pub enum Error {
         value: String,
         /// What would be right.
         hint: String,
+    },
+    /// An argument of which something other than its value is wrong.
+    #[error("{argument} {fault}: {hint}")]
+    Fault {
+        /// Name of the argument as the caller typed it.
+        argument: String,
+        /// What it is or has: "has 3 points".
+        fault: String,
+        /// What would be right.
+        hint: &'static str,
     },
     /// A quantity that this engine does not have.
     #[error("{argument} is undefined for this engine: {reason}")]
@@ -107,6 +132,12 @@ impl Error {
         }
     }
 
+    /// What is wrong with an argument, "has 3 points", with the hint.
+    #[must_use]
+    pub fn fault(argument: &str, fault: String, hint: &'static str) -> Self {
+        Self::Fault { argument: argument.to_owned(), fault, hint }
+    }
+
     /// A figure that cannot be used, with the hint; very large and small ones as powers of ten.
     pub fn figure(argument: impl Into<String>, value: f64, hint: impl Into<String>) -> Self {
         Self::value(argument, format!("{value:?}"), hint)
@@ -134,7 +165,9 @@ impl Error {
             Self::Length { argument, item, .. } => {
                 return Some((argument, None, format!("give one for each {item}").into()));
             }
-            Self::TooLarge { argument, hint, .. } => (argument.as_str(), None, *hint),
+            Self::Fault { argument, hint, .. } | Self::TooLarge { argument, hint, .. } => {
+                (argument.as_str(), None, *hint)
+            }
             Self::File { reason, .. } => ("engine file", None, &**reason),
             Self::OutOfMemory { .. } | Self::Cancelled => return None,
         };
@@ -176,6 +209,7 @@ mod tests {
         let name = || "z".to_owned();
         let errors = [
             Error::figure("z", -1.0, "give 0 or more").within("placements[0]."),
+            Error::fault("z", "has 3 points".into(), "give more"),
             Error::Undefined { argument: "z", reason: "it has none".into() },
             Error::NoTorque("leave it out"),
             Error::Length {

@@ -8,6 +8,7 @@ pub mod decimal;
 pub mod double;
 pub mod error;
 pub mod figure;
+pub(crate) mod fourier;
 pub mod index;
 pub(crate) mod kept;
 pub mod limits;

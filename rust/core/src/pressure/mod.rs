@@ -2,7 +2,7 @@
 //!
 //! Imports run downwards: [`Cycle`] keeps the points it was given and the piecewise polynomial through
 //! them (`interpolant`); `harmonics` integrates that over a piston's motion; `chamber` and `burn` compute
-//! cycles of a cylinder.
+//! cycles of a cylinder; `preparation` corrects measured ones.
 
 pub mod burn;
 pub mod chamber;
@@ -10,6 +10,7 @@ pub mod example;
 mod harmonics;
 mod interpolant;
 pub mod map;
+pub mod preparation;
 mod strokes;
 pub mod warnings;
 

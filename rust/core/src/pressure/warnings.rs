@@ -42,43 +42,31 @@ pub fn of_cycle(cycle: &Cycle) -> Vec<Warning> {
 pub fn pressures(values: &[f64]) -> Option<Warning> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let text = if most < LARGEST_IN_KPA {
-        let unit = if most < LARGEST_IN_BAR { "bar" } else { "kPa" };
-        let most = figure(most);
-        format!("pressure is at most {most} Pa: was it given in {unit}? Pressures are Pa here")
+    let other_unit = "are its numbers in the unit that is named for them? Pressures are Pa here";
+    let [lowest, highest, range] = [least, most, most - least].map(figure);
+    let (fault, hint) = if most < LARGEST_IN_BAR {
+        (format!("is at most {highest} Pa"), "was it given in bar? Pressures are Pa here")
+    } else if most < LARGEST_IN_KPA {
+        (format!("is at most {highest} Pa"), "was it given in kPa? Pressures are Pa here")
     } else if 0.0 < most - least && most - least < LARGEST_IN_BAR {
-        format!(
-            "pressure varies by {} Pa alone: was gauge pressure given in bar? Pressures are Pa here",
-            figure(most - least)
-        )
+        let hint = "was gauge pressure given in bar? Pressures are Pa here";
+        (format!("varies by {range} Pa alone"), hint)
     } else if most > LARGEST_PRESSURE {
-        format!(
-            "pressure is as much as {} Pa, more than any engine's: are its numbers in the unit that is \
-             named for them? Pressures are Pa here",
-            figure(most)
-        )
+        (format!("is as much as {highest} Pa, more than any engine's"), other_unit)
     } else if least > LARGEST_INTAKE && most > PEAKED * least {
-        format!(
-            "pressure is {} Pa at its least, more than any intake has: are its numbers in the unit that is \
-             named for them? Pressures are Pa here",
-            figure(least)
-        )
+        (format!("is {lowest} Pa at its least, more than any intake has"), other_unit)
     } else if quantile(values, NOISE) < LEAST_ABSOLUTE {
-        format!(
-            "pressure is {} Pa at its least: is it gauge pressure? Pressures are absolute here: add that \
-             of the atmosphere, 101325 Pa",
-            figure(least)
-        )
+        let hint = "is it gauge pressure? Pressures are absolute here: add that of the atmosphere, \
+                    101325 Pa";
+        (format!("is {lowest} Pa at its least"), hint)
     } else if least < 0.0 {
-        format!(
-            "pressure is {} Pa at its least, which noise or an offset of the sensor does: torque is linear \
-             in pressure, and counts it as it is",
-            figure(least)
-        )
+        let hint = "torque is linear in pressure, and counts it as it is";
+        let fault = "at its least, which noise or an offset of the sensor does";
+        (format!("is {lowest} Pa {fault}"), hint)
     } else {
         return None;
     };
-    Some(Warning::new("pressure", text))
+    Some(Warning::new("pressure", fault, hint))
 }
 
 /// Value below which this part of values is, between two of them in proportion.
@@ -95,12 +83,13 @@ fn quantile(values: &[f64], part: f64) -> f64 {
 #[must_use]
 pub fn peak(theta_deg: &[f64], values: &[f64], period_deg: f64) -> Option<Warning> {
     let far = far_peak(theta_deg, values, period_deg)?;
-    let text = format!(
-        "theta_deg: pressure peaks at {}°, far from the firing top dead centre, from which angles are \
-         counted here; for a file that counts from elsewhere, give the angle at which it has that centre",
+    let fault = format!(
+        "peaks at {}°, far from the firing top dead centre, from which angles are counted \
+         here",
         significant(far, 4)
     );
-    Some(Warning::new("theta_deg", text))
+    let hint = "for a file that counts from elsewhere, give the angle at which it has that centre";
+    Some(Warning::new("theta_deg", fault, hint).about("theta_deg: pressure".into()))
 }
 
 /// Crank angle of the peak of pressure, degrees, if it is far from the firing top dead centre.
@@ -127,25 +116,21 @@ pub fn work(cycle: &Cycle, mean_effective: f64) -> Option<Warning> {
     let strong = mean_effective < STRONGEST_BRAKE
         && given.degree.is_none()
         && far_peak(&given.theta_deg, &given.pressure, period_deg(cycle.strokes())).is_none();
-    let text = format!(
-        "imep = {} bar: pressure brakes the crank. Are angles counted in the direction of rotation, from \
-         the firing top dead centre?",
-        significant(mean_effective / 1e5, 3)
-    );
-    strong.then(|| Warning::new("imep", text))
+    let fault = format!("= {} bar", significant(mean_effective / 1e5, 3));
+    let hint = "pressure brakes the crank. Are angles counted in the direction of rotation, from the \
+                firing top dead centre?";
+    strong.then(|| Warning::new("imep", fault, hint))
 }
 
 /// Of the pressure of crankcase or intake in other units, Pa; 0 is a vacuum.
 #[must_use]
 pub fn absolute(argument: &str, pressure: f64) -> Option<Warning> {
-    let question = if 0.0 < pressure && pressure < LARGEST_IN_BAR {
-        "was it given in bar or kPa?"
+    let hint = if 0.0 < pressure && pressure < LARGEST_IN_BAR {
+        "was it given in bar or kPa? Pressures are Pa here"
     } else if pressure > LARGEST_PRESSURE {
-        "is it in Pa?"
+        "is it in Pa? Pressures are Pa here"
     } else {
         return None;
     };
-    let value = figure(pressure);
-    let text = format!("{argument} = {value} Pa: {question} Pressures are Pa here");
-    Some(Warning::new(argument, text))
+    Some(Warning::new(argument, format!("= {} Pa", figure(pressure)), hint))
 }

@@ -9,14 +9,18 @@ pub mod rim;
 
 use std::sync::LazyLock;
 
+use crate::Complex64;
 use crate::engine::Engine;
 use crate::load::kinematics::Kinematics;
 use crate::load::{Load, Scene};
+use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
+use crate::numbers::figure::significant;
 use crate::numbers::limits;
 use crate::numbers::memory;
+use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
 use crate::readings::balance::angular_speed;
 use crate::source::over_angle::BLOCK;
@@ -41,6 +45,8 @@ const PIECE: usize = 1 << 12;
 pub(super) const SLOWEST: f64 = 1e-4;
 /// Largest irregularity that can be asked for.
 const MOST_IRREGULAR: f64 = 0.5;
+/// Part of a number of rounds by which one of a period differs from a whole one at most.
+const ROUNDS: f64 = 1e-9;
 /// Part of the work of a drive below which its fluctuation is rounding.
 const WORK_ROUNDING: f64 = 1e-13;
 /// Steps of iterations that gain digits with each.
@@ -520,6 +526,49 @@ pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
         Ok(grid.mean(&inertia))
     };
     (0..engine.stations().len()).map(of_cylinder).collect()
+}
+
+/// Largest less smallest speed of each order alone, over the mean speed, from the speed over one period by
+/// trapezes; orders come round in it.
+pub fn irregularity_by_order(
+    theta_deg: &[f64],
+    speed: &[f64],
+    mean_speed: f64,
+    orders: &[Order],
+    cancel: &Cancel,
+) -> Result<Vec<f64>> {
+    let period = theta_deg[theta_deg.len() - 1] - theta_deg[0];
+    let of = |order: &Order| {
+        cancel.check()?;
+        let rounds = order.number() * period / 360.0;
+        if (rounds - rounds.round()).abs() > ROUNDS * rounds {
+            let hint = format!("give ones that come round in {}°", significant(period, 6));
+            return Err(Error::figure("orders", order.number(), hint));
+        }
+        let wave = |k: usize| cis_degrees(-order.number() * theta_deg[k]) * speed[k];
+        let cells = 1..theta_deg.len();
+        let trapeze = |k: usize| (wave(k - 1) + wave(k)) * (theta_deg[k] - theta_deg[k - 1]);
+        let phasor: Complex64 = cells.map(trapeze).sum::<Complex64>() / period;
+        Ok(2.0 * phasor.norm() / mean_speed)
+    };
+    orders.iter().map(of).collect()
+}
+
+/// Largest less smallest angle by which a crank leads one that turns evenly, degrees, from its speed over one
+/// period by trapezes of the time that an angle takes.
+#[must_use]
+pub fn swing_deg(theta_deg: &[f64], speed: &[f64]) -> f64 {
+    let mut time = 0.0;
+    let mut times = vec![0.0];
+    for (angles, speeds) in theta_deg.windows(2).zip(speed.windows(2)) {
+        time += (angles[1] - angles[0]) * 0.5 * (1.0 / speeds[0] + 1.0 / speeds[1]);
+        times.push(time);
+    }
+    let even = (theta_deg[theta_deg.len() - 1] - theta_deg[0]) / time;
+    let leads = theta_deg.iter().zip(times).map(|(theta, at)| theta - theta_deg[0] - at * even);
+    let range = |[low, high]: [f64; 2], lead: f64| [low.min(lead), high.max(lead)];
+    let [low, high] = leads.fold([f64::INFINITY, f64::NEG_INFINITY], range);
+    high - low
 }
 
 /// Moment of inertia of an engine's pistons and rods as seen from the crank, and its slope per radian.
