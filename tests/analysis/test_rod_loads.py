@@ -22,13 +22,17 @@ def compressor(
     **parts: float,
 ) -> cp.Engine:
     """Return a double-acting cylinder, an end of it unloaded or none."""
-    figures = {"crank_radius": 0.125, "rod_length": 0.625, "reciprocating_mass": 180.0} | parts
-    cylinder = cp.Cylinder(**figures, pin_offset=offset, bore=0.3)  # type: ignore[arg-type]
+    figures: dict[str, Any] = {
+        "crank_radius": 0.125,
+        "rod_length": 0.625,
+        "reciprocating_mass": 180.0,
+    } | parts
+    cylinder = cp.Cylinder(**figures, pin_offset=offset, bore=0.3)
     bare = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.3, strokes=2)
     ends: dict[str, Any] = {
         end: cp.Cycle.compressor(
             cylinder, suction=SUCTION, discharge=None if end == unloaded else DISCHARGE,
-            clearance=clearance, n=N, end=end,  # type: ignore[arg-type]
+            clearance=clearance, n=N, end=end,
         )
         for end in ("head", "crank")
     }  # fmt: skip
@@ -173,19 +177,21 @@ def test_limits_of_rods_and_ends() -> None:
 def test_double_acting_is_said_and_refused_by_name() -> None:
     engine = compressor()
     assert engine.loads_counted == "gas: Compressor; crank ends: Compressor, crank end"
-    cycle = engine.cycles[0]  # type: ignore[index]
+    (cycle,) = engine.cycles or ()
+    assert cycle is not None
     both = engine.with_cycle(cycle, double_acting=True, rod_diameter=0.06)
     assert both.loads_counted == "gas: Compressor; double acting"
     assert both.rod_diameter.tolist() == [0.06]
     assert engine.replace(name="again").crank_ends == engine.crank_ends
-    for options, words in (
+    refused: list[tuple[dict[str, Any], str]] = [
         ({"rod_diameter": 0.06}, "^rod_diameter"),
         ({"double_acting": True, "crank_end": cycle}, "^double_acting"),
         ({"crank_end": [cycle, cycle]}, "^crank_end"),
         ({"crank_end": cycle, "rod_diameter": 0.31}, "^rod_diameter"),
-    ):
+    ]
+    for options, words in refused:
         with pytest.raises(cp.InputError, match=words):
-            engine.with_cycle(cycle, **options)  # type: ignore[arg-type]
+            engine.with_cycle(cycle, **options)
     grid = cp.CycleMap([100, 200], [0, 1], [[cycle, cycle]] * 2)
     with pytest.raises(cp.InputError, match="crank ends"):
         cp.sweep(engine, rpm=[100.0], load=[0.5], cycle=grid)

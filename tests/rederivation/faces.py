@@ -35,7 +35,9 @@ def bend(theta: Reals, r: float, rod: float, e: float = 0.0) -> Reals:
     return np.asarray(-first - quotient)
 
 
-def swept(theta: Reals, end: str, r: float, rod: float, e: float = 0.0) -> tuple[Reals, Reals]:
+def swept(
+    theta: Reals, end: str, r: float, rod: float, e: float = 0.0
+) -> tuple[Reals, NDArray[np.bool_]]:
     """Part of the stroke that a piston leaves at one end, and whether that grows."""
     turning = np.arcsin(e / (rod + r)), np.pi + np.arcsin(e / (rod - r))
     highest, lowest = (place(np.array(at), r, rod, e) for at in turning)
@@ -45,7 +47,12 @@ def swept(theta: Reals, end: str, r: float, rod: float, e: float = 0.0) -> tuple
 
 
 def compressed(
-    part: Reals, grows: Reals, suction: float, discharge: float, clearance: float, n: float
+    part: Reals,
+    grows: NDArray[np.bool_],
+    suction: float,
+    discharge: float,
+    clearance: float,
+    n: float,
 ) -> Reals:
     """Pressure of ideal valves: the outgoing stroke begins at discharge, the other at suction."""
     expanding = discharge * (clearance / (clearance + np.maximum(part, 0.0))) ** n
