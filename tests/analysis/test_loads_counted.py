@@ -273,6 +273,7 @@ COMMANDS_SAY = {
     "balance": "",
     "torque": "",
     "bearings": "",
+    "rod-load": "",
     "explain": "",
     "sweep": "--rpm 1000:2000:500 --quantity torque",
     "rank": "--by total.torque.peak",
@@ -301,7 +302,7 @@ def test_commands_say_what_they_count(
     name: str, engine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     made, words = WORDS[engine]
-    if engine == "bare" and name in ("torque", "bearings", "flywheel"):
+    if engine == "bare" and name in ("torque", "bearings", "rod-load", "flywheel"):
         words = "gas: example petrol, full load"  # without another cycle
     if engine != "bare" and name == "tolerances":
         return  # which do not count gas

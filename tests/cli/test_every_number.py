@@ -95,6 +95,18 @@ IN_PLACE = {
     ("new", "--ratio"): "square-four --distance 10cm --ratio 1",
     ("new", "--phase"): "u --throws 0,180 --distance 0.2 --phase 30",
     ("new", "--lead"): "opposed-pistons --throws 0,180 --distance 0.9 --lead 12",
+    ("new", "--crosshead-mass"): "compressor --throws 0,180 --crosshead-mass 20kg",
+    ("new", "--suction"): "compressor --throws 0,180 --bore 300mm --discharge 4bar --suction 1bar",
+    ("new", "--discharge"): "compressor --throws 0,180 --bore 300mm --discharge 4bar",
+    (
+        "new",
+        "--clearance",
+    ): "compressor --throws 0,180 --bore 300mm --discharge 4bar --clearance 12%",
+    ("new", "--exponent"): "compressor --throws 0,180 --bore 300mm --discharge 4bar --exponent 1.2",
+    (
+        "new",
+        "--rod-diameter",
+    ): "compressor --throws 0,180 --bore 300mm --discharge 4bar --rod-diameter 60mm",
     ("new", "--intervals"): "firing-order --firing-order 1-2 --intervals 360,360",
     ("new", "--strokes"): "i3 --strokes 4",
     ("new", "--dummy"): "i3 --dummy 2,3",

@@ -32,6 +32,7 @@ LINES = {
     "u": "--throws 0,180 --distance 0.3",
     "square-four": "--distance 0.1",
     "h": "--throws 0,180 --distance 0.3",
+    "compressor": "--throws 0,180",
 }
 """Builder → what it needs."""
 WHOLE = "--stroke 80mm --rod-length 140mm --piston-mass 400g --rod-mass 500g"

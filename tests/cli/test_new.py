@@ -152,6 +152,8 @@ LAYOUTS: dict[str, tuple[str, dict[str, Any]]] = {
           {"throws_deg": [0, 180], "distance": 0.3, "phase_deg": 90}),
     "square-four": ("--distance 12cm --ratio 1", {"distance": 0.12, "ratio": 1}),
     "h": ("--throws 0 --distance 0.3", {"throws_deg": [0], "distance": 0.3}),
+    "compressor": ("--throws 0,180 --crosshead-mass 20kg",
+                   {"throws_deg": [0, 180], "crosshead_mass": 20}),
 }  # fmt: skip
 
 

@@ -36,6 +36,7 @@ LINES = {
     "rank": "rank i4 i6 --by total.force.peak",
     "torque": "torque i4 --rpm 1500 --bore 86mm",
     "bearings": "bearings i4 --rpm 6000",
+    "rod-load": "rod-load i4 --rpm 6000",
     "mounts": "mounts car.toml --rpm 2000",
     "mounts-fit": "mounts-fit car.toml --stiffness 50000,1000000 --starts 1",
     "counterweights": "counterweights v8-crossplane --planes ends",

@@ -48,6 +48,16 @@ LOADED = cp.bearing_loads(
     rpm=6000,
 )
 
+COMPRESSED = cp.Cylinder(0.125, 0.625, 180.0, bore=0.3)
+RODS = cp.rod_loads(
+    cp.Engine.opposed_throws(COMPRESSED, throws_deg=[0, 180], spacing=0.32).with_cycle(
+        cp.Cycle.compressor(COMPRESSED, suction=1e5, discharge=9e5),
+        crank_end=cp.Cycle.compressor(COMPRESSED, suction=1e5, discharge=9e5, end="crank"),
+        rod_diameter=0.06,
+    ),
+    rpm=450,
+)
+
 FIRED = cp.Engine.preset("v6-90-odd-fire", cylinder=CYLINDER.replace(bore=0.09)).with_cycle(
     cp.Cycle.example()
 )
@@ -272,6 +282,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
         ax, load="crankpin", numbers=[1], axes="rod"
     ),
     "bending": lambda **place: LOADED.plot(kind="bending", **place),
+    "rod-loads": RODS.plot,
     "powertrain": MOUNTED.plot,
     "table-bars": lambda **place: MOUNTED.static(120.0).plot(**place),
     "table-curves": cp.sweep(I4, rpm=range(1000, 6001, 500)).table.plot,

@@ -195,8 +195,14 @@ class RodLoads(Labelled):
 
         Of shape (n_cylinders,): zero where it never changes sign.
         """
-        return read_only(np.array([longest_of_lesser(arcs, 180.0 * self.engine.strokes)
-                                   for arcs in self.tension_ranges_deg]))  # fmt: skip
+        longest = (max((to - begin for begin, to in arcs), default=0.0) for arcs in self._reversals)
+        return read_only(np.array([*longest]))
+
+    @property
+    def _reversals(self) -> list[list[tuple[float, float]]]:
+        """Ranges of angles in which each rod has the sign that it has for less of the cycle."""
+        cycle = 180.0 * self.engine.strokes
+        return [lesser_ranges(arcs, cycle) for arcs in self.tension_ranges_deg]
 
     @property
     def table(self) -> Table:
@@ -230,11 +236,21 @@ class RodLoads(Labelled):
         )
 
 
-def longest_of_lesser(arcs: tuple[tuple[float, float], ...], cycle_deg: float) -> float:
-    """Return the longest range of the sign that a load has for less of a cycle, degrees."""
-    if not arcs:
-        return 0.0
-    lengths = [to - begin for begin, to in arcs]
-    following = [*arcs[1:], (arcs[0][0] + cycle_deg, 0.0)]
-    gaps = [after - to for (_, to), (after, _) in zip(arcs, following, strict=True)]
-    return float(max(min((lengths, gaps), key=sum)))
+def lesser_ranges(
+    tension: tuple[tuple[float, float], ...], cycle_deg: float
+) -> list[tuple[float, float]]:
+    """Return the ranges of the sign that a load has for less of a cycle, degrees.
+
+    Parameters
+    ----------
+    tension
+        Ranges in which it is tension.
+    cycle_deg
+        The cycle.
+    """
+    if not tension:
+        return []
+    following = [*tension[1:], (tension[0][0] + cycle_deg, 0.0)]
+    others = [(to, after) for (_, to), (after, _) in zip(tension, following, strict=True)]
+    both = [[(begin, to) for begin, to in arcs if to > begin] for arcs in (tension, others)]
+    return min(both, key=lambda arcs: sum(to - begin for begin, to in arcs))

@@ -15,6 +15,7 @@ from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.bearings import REFERENCE_AXES, bearing_loads
 from crankpin.analysis.prepared_trace import prepare_trace
+from crankpin.analysis.rod_loads import USUAL_REVERSAL, rod_loads
 from crankpin.cli.options import command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
@@ -144,6 +145,30 @@ def _bearings(call: Given) -> Shown:
     accepted = {"polar": ("load", "axes"), "curves": ("load",), "bending": ()}[kind]
     options = {name: call.text(f"--{name}") for name in accepted}
     return Shown(loads.frames, loads, {"kind": kind, **options}, note=note)
+
+
+@command(
+    "rod-load",
+    "load of each piston rod at its crosshead pin: compression, tension and their reversal",
+    "name --rpm --cycle --firing-order --bore --crankcase",
+    *OF_A_FILE,
+    option(
+        "--cylinder",
+        metavar="NUMBER",
+        default="1",
+        help="cylinder of the picture (default: %(default)s)",
+    ),
+    "--units --csv --plot",
+    example="rod-load i4 --rpm 3000 --bore 86mm --plot rod.png",
+    note="Outboard of the pin are piston, piston rod and crosshead: the piston_mass of a cylinder\n"
+    "or all of its reciprocating mass. API 618 asks for a reversal, usually of "
+    f"{USUAL_REVERSAL:g}° at least.",
+)
+def _rod_load(call: Given) -> Shown:
+    engine, note = fired(call, "rod-load")
+    loads = rod_loads(engine, call.number("--rpm", "rpm"))
+    cylinder = call.whole_numbers("--cylinder", "give the number of a cylinder")[0]
+    return Shown(only(loads.table), loads, {"cylinder": cylinder}, note=note)
 
 
 def fired(call: Given, name: str) -> tuple[Engine, str]:

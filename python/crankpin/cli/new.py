@@ -8,13 +8,14 @@ import math
 import shlex
 import textwrap
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from crankpin._support import inputs, units
 from crankpin._support.messages import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.cli.options import PROG, command, keyword, option, rejected
+from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
 from crankpin.model import engine_files, presets
+from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
@@ -42,6 +43,7 @@ BUILDERS = {
     "u": "u",
     "square-four": "square_four",
     "h": "h",
+    "compressor": "opposed_throws",
 }
 """Kind → the builder of :class:`Engine` that takes all of its layout from options."""
 
@@ -115,6 +117,7 @@ LAYOUT = {
         _of_shape(Engine.u, "ratio"),
         _of_shape(Engine.u, "phase_deg"),
         _of_shape(Engine.opposed_pistons, "lead_deg"),
+        _of_shape(Engine.opposed_throws, "crosshead_mass"),
     )
 }
 """Option → the argument of a builder that it gives."""
@@ -184,6 +187,9 @@ def _wrapped(names: Iterable[str]) -> str:
 
 PARTS_HELP = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 ON_MOUNTS = "body and mounts, for crankpin mounts"
+COMPRESSING = "cycle of a compressor, with ideal valves"
+COMPRESSOR = Cycle.compressor
+"""The function of these options; a method is another object each time."""
 
 
 @command(
@@ -209,6 +215,14 @@ ON_MOUNTS = "body and mounts, for crankpin mounts"
     ),
     *LAYOUT.values(),
     _of_shape(Engine.from_firing_order, "shared_pins"),
+    *keywords(COMPRESSOR, "suction discharge clearance", group=COMPRESSING),
+    keyword(COMPRESSOR, "n", "--exponent", group=COMPRESSING),
+    option(
+        "--rod-diameter",
+        group=COMPRESSING,
+        metavar="LENGTH",
+        help="diameter of the piston rods, which makes the cylinders double acting",
+    ),
     option(
         "--body",
         group=ON_MOUNTS,
@@ -248,7 +262,7 @@ def _new(call: Given) -> str:
     file = call.engine_file("--out")
     notes = list[str]()
     cylinder, rotating = _parts(call, notes)
-    engine = call.with_loads(_engine(call, cylinder, rotating, notes))
+    engine = _compressing(call, call.with_loads(_engine(call, cylinder, rotating, notes)))
     powertrain = _on_mounts(call, engine)
     if file is None:
         whole = engine.to_toml() if powertrain is None else powertrain._text(toml=True)
@@ -260,6 +274,22 @@ def _new(call: Given) -> str:
         summary = repr(engine)
     command = "balance" if powertrain is None else "mounts"
     return f"{summary}\n{remarks}Written to {file}: try {PROG} {command} {shlex.quote(str(file))}\n"
+
+
+def _compressing(call: Given, engine: Engine) -> Engine:
+    """Return an engine with the cycle of a compressor, if one is given, at one end or at both."""
+    figures, rod = call.keywords(COMPRESSOR), call.optional("--rod-diameter", "m")
+    if "discharge" not in figures:
+        if figures or rod is not None:
+            raise inputs.faulty("--discharge", "is left out", "the cycle of a compressor needs it")
+        return engine
+    ends: list[Literal["head", "crank"]] = ["head"] if rod is None else ["head", "crank"]
+    cycles = {
+        one: [COMPRESSOR(one, end=end, **figures) for end in ends]
+        for one in dict.fromkeys(engine.cylinders)
+    }
+    head, *crank = ([cycles[one][k] for one in engine.cylinders] for k in range(len(ends)))
+    return engine.with_cycle(head, crank_end=crank[0] if crank else None, rod_diameter=rod)
 
 
 def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:

@@ -35,7 +35,7 @@ class Shown(NamedTuple):
     frames: Frames
     drawn: Any = None
     """Result of which ``--plot`` is a picture."""
-    options: Mapping[str, str] = MappingProxyType({})
+    options: Mapping[str, Any] = MappingProxyType({})
     """Options of its plot."""
     engine: Engine | Powertrain | None = None
     """Engine written by ``--save``."""

@@ -20,6 +20,7 @@ from crankpin.plot import (  # noqa: F401 - they register their pictures
     operating_map,
     phasors,
     ranking,
+    rod_loads,
     sweep,
     table,
     tolerances,
