@@ -102,6 +102,21 @@ def test_couples_of_marine_two_strokes(order: str, first: float, second: float) 
         assert table.vertical_couple[1].peak == 0.0
 
 
+def test_a_fan_of_three_bores_on_one_pin() -> None:
+    """Bores at 18, 90 and 162°: order 1 turns forward 3/2 F₁, and backward cos 72° of it."""
+    cylinder = cp.Cylinder(0.05, 0.15, 1.0)
+    fan = cp.Engine.from_lists(cylinder, pin_deg=[90] * 3, bank_deg=[18, 90, 162], z=[0.0] * 3)
+    one, a_2 = 0.05 * (math.pi * 100) ** 2, abs(cylinder.harmonics([2])[0])
+    force = fan.balance(3000, orders=(1, 2)).force
+    parts = np.abs([force.forward, force.backward]) / [one, one * a_2]
+    np.testing.assert_allclose(parts, [[1.5, 0.80901699], [0.30901699, 0.30901699]], rtol=1e-7)
+    # The ellipse's axes lie horizontally and upright, so the table has their lengths.
+    table = cp.foundation_table(fan, 3000)
+    for way, sign in (("horizontal", 1), ("vertical", -1)):
+        found = np.abs(getattr(table, f"{way}_force"))[0] / [one, one * a_2]
+        np.testing.assert_allclose(found, np.abs(parts[0] + sign * parts[1]), rtol=1e-12)
+
+
 # --- laws -----------------------------------------------------------------------------------------
 
 
