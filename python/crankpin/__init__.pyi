@@ -42,6 +42,8 @@ from crankpin.model.cylinder import Rod as Rod
 from crankpin.model.cylinder import slider_crank_harmonics as slider_crank_harmonics
 from crankpin.model.engine import Engine as Engine
 from crankpin.model.gas_torque import gas_torque_harmonics as gas_torque_harmonics
+from crankpin.model.links import LinkRod as LinkRod
+from crankpin.model.links import LinkRods as LinkRods
 from crankpin.model.loads import PeriodicLoad as PeriodicLoad
 from crankpin.model.mounts import InertiaTrack as InertiaTrack
 from crankpin.model.mounts import Mount as Mount

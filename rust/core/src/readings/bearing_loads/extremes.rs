@@ -236,7 +236,7 @@ impl BearingLoadsModel {
     pub fn extremes(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Extremes> {
         let cycle = f64::from(cycle_deg);
         let rods = pool::map(cancel, self.rods.iter().collect(), |rod| {
-            let edges = edges(rod.edges_deg(), cycle, cancel)?;
+            let edges = edges(rod.edges_deg().into_iter(), cycle, cancel)?;
             let of = |theta, beside| of_rod(rod, theta, beside);
             let curves = LoadCurves { edges: &edges, of, cancel };
             let sampled = curves.sampled()?;

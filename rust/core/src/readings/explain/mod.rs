@@ -229,11 +229,11 @@ fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<
 
 /// The bob weight that removes what turns with a crank: half of the pistons'.
 fn bob_weights(engine: &Engine) -> Option<Finding> {
-    let is_of_crank_alone = |gear: &crate::Cylinder| !gear.mechanism().exact_force(1).rest.exists();
+    let is_of_crank_alone = |i: usize| !engine.mechanism(i).exact_force(1).rest.exists();
     let is_of_crank = |ratio: SpeedRatio| engine.cranks().iter().any(|crank| crank.ratio == ratio);
     // Other cranks have their first order elsewhere.
     let fast = engine.cranks().iter().any(|crank| !crank.ratio.is_crank_speed());
-    if !engine.distinct_cylinders().iter().all(is_of_crank_alone)
+    if !(0..engine.stations().len()).all(is_of_crank_alone)
         || fast
         || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio))
     {

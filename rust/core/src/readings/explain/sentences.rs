@@ -421,7 +421,8 @@ impl Explanation {
         let figures = |&cylinder: &usize| {
             let gear = &self.engine.stations()[cylinder].cylinder;
             let bore = self.engine.details()[cylinder].bore;
-            (gear.crank_radius(), gear.rod_length(), gear.pin_offset(), bore)
+            let linked = self.engine.running_gear(cylinder).knuckle;
+            (gear.crank_radius(), gear.rod_length(), gear.pin_offset(), bore, linked)
         };
         let is_first = |cylinder| figures(cylinder) == figures(&firing[0]);
         let unlike = if !firing.iter().all(is_first) {
