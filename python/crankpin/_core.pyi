@@ -84,6 +84,7 @@ __all__ = [
     "inertia_by_irregularity",
     "inline_throws",
     "irregularity_by_order",
+    "link_rod_table",
     "listed_orders",
     "load_rows",
     "low_passed",
@@ -854,6 +855,14 @@ def cylinder_torque_harmonics(
     parts: _Parts, orders: Sequence[int]
 ) -> tuple[_Complex, _Complex]: ...
 def centred_table(rod_ratios: _Real, orders: Sequence[int], rtol: float | None = None) -> _Real: ...
+def link_rod_table(
+    rod_ratios: NDArray[np.float64],
+    master_ratios: NDArray[np.float64],
+    knuckle_ratios: NDArray[np.float64],
+    bores_deg: NDArray[np.float64],
+    knuckles_deg: NDArray[np.float64],
+    orders: Sequence[int],
+) -> NDArray[np.complex128]: ...
 def offset_table(
     rod_ratios: _Real, offsets: _Real, orders: Sequence[int], rtol: float | None = None
 ) -> _Complex: ...

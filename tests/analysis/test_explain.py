@@ -635,8 +635,8 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
     (
         RADIAL,
         None,
-        ("Seven rods share a crankpin: each rod is computed on the crankpin itself; a master rod "
-        "with articulated rods, which moves its pistons differently, is not modelled."),
+        ("Seven rods share a crankpin: each rod is computed on the crankpin itself; link rods "
+        "on a master rod, which this engine does not have, move their pistons differently."),
     ),
     (WITH_HARDWARE[-2], None, "one throw's first-order force"),
     (WITH_HARDWARE[-1], None, ("a shaking force of 0.04 kg·m times ω², constant in size, turning "

@@ -466,10 +466,7 @@ class EngineData:
         return type(self)(rotating.with_counterweights(self._core, counterweights))
 
     def with_link_rods(
-        self,
-        rods: LinkRods | Sequence[LinkRod | None],
-        *,
-        master: Masters | None = None,
+        self, rods: LinkRods | Sequence[LinkRod | None], *, master: Masters | None = None
     ) -> Self:
         """Return the same engine with link rods that hang on master rods.
 
@@ -720,8 +717,9 @@ class EngineData:
         """Return a copy with some lists changed; see :meth:`from_lists`.
 
         A firing order that the changed crank does not allow is dropped, unless it is given; dummy
-        pistons leave it, and have no cycle. Link rods hang where they did. A cylinder with another ``rod`` brings its big end as
-        rotating mass, unless the engine's differs from the big end of the rod that it had.
+        pistons leave it, and have no cycle. A cylinder with another ``rod`` brings its big end as
+        rotating mass, unless the engine's differs from the big end of the rod that it had. Link
+        rods hang where they did.
 
         Parameters
         ----------

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+import numpy as np
+
+from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.record import Input
 
 if TYPE_CHECKING:
-    from crankpin import _core
-    from crankpin._support.inputs import Angle, Angles
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Angle, Angles, Orders
 
 Masters: TypeAlias = "int | str | Sequence[int]"
 """Number of the cylinder of a master rod, several, or the name of their bank."""
@@ -129,6 +133,78 @@ class LinkRods(Input):
         object.__setattr__(self, "big_end_mass", mass)
 
 
+def link_rod_harmonics(
+    rod_ratio: ArrayLike,
+    orders: Orders,
+    *,
+    master_ratio: ArrayLike,
+    knuckle_ratio: ArrayLike,
+    bore_deg: ArrayLike,
+    knuckle_deg: ArrayLike | None = None,
+) -> NDArray[np.complex128]:
+    """Return the harmonics aₙ of the inertia force of link rods' pistons, of many at once.
+
+    The force along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``, to 1e-12 of the largest. Odd
+    orders above the first are in proportion to the sine of the angle between knuckle and bore, with
+    all digits down to none.
+
+    Parameters
+    ----------
+    rod_ratio : array_like
+        Crank radius / length of the link rod; any shape, with which the others broadcast.
+    orders : int or sequence of int
+        Whole multiples of crank speed.
+    master_ratio : array_like
+        Crank radius / length of the master rod, which has no pin offset.
+    knuckle_ratio : array_like
+        Distance of the knuckle from the crankpin / crank radius.
+    bore_deg : array_like
+        Angle of the bore ahead of the master's, degrees.
+    knuckle_deg : array_like, optional
+        Angle of the knuckle from the master's shank, degrees; by default ``bore_deg``.
+
+    Returns
+    -------
+    ndarray of complex, shape (..., n_orders)
+        Of the broadcast shape.
+
+    Raises
+    ------
+    InputError
+        If a ratio is out of range, or a link rod is too short for its knuckle.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> a = cp.link_rod_harmonics(
+    ...     60 / 178, [1, 2, 3], master_ratio=60 / 230, knuckle_ratio=52 / 60, bore_deg=[72, 144]
+    ... )
+    >>> a.shape, bool((a[:, 0] == 1).all()), bool((a[:, 2] == 0).all())
+    ((2, 3), True, True)
+    """
+    given = {
+        "rod_ratio": rod_ratio,
+        "master_ratio": master_ratio,
+        "knuckle_ratio": knuckle_ratio,
+        "bore_deg": bore_deg,
+        "knuckle_deg": bore_deg if knuckle_deg is None else knuckle_deg,
+    }
+    chosen = inputs.explicit_orders(orders)
+    arrays = {name: inputs.array(name, values) for name, values in given.items()}
+    try:
+        shape = np.broadcast_shapes(*(values.shape for values in arrays.values()))
+    except (ValueError, RuntimeError) as error:
+        hint = f"give shapes that broadcast ({inputs.reason(error)})"
+        shapes = ", ".join(f"{name} {values.shape}" for name, values in arrays.items())
+        raise inputs.faulty("rod_ratio", f"has another shape than others: {shapes}", hint) from None
+    rods, masters, knuckles, bores, angles = (
+        inputs.contiguous(inputs.array(name, np.broadcast_to(values, shape))).reshape(-1)
+        for name, values in arrays.items()
+    )
+    table = _core.link_rod_table(rods, masters, knuckles, bores, angles, chosen)
+    return table.reshape(*shape, len(chosen))
+
+
 def _not_negative(name: str, value: float) -> float:
     number = inputs.finite(name, value)
     if number < 0.0:
@@ -171,8 +247,10 @@ def with_masters(
         numbers = [*banks[inputs.one_of("master", master, banks)]]
     elif master is not None:
         hint = "give the number of a cylinder, several, or the name of a bank"
-        given = master if isinstance(master, (Sequence,)) else [master]
-        numbers = [inputs.whole("master", one, 1) for one in inputs.items("master", given, hint)]
+        given = inputs.items("master", master if isinstance(master, Iterable) else [master], hint)
+        numbers = [inputs.whole("master", one, 1, len(core.z)) for one in given]
+        if not numbers:
+            raise inputs.rejected("master", master, hint)
     return core.with_master_rods(
         rods.radius,
         rods.length,

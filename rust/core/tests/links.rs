@@ -77,7 +77,7 @@ fn turning(engine: &Engine, order: u32, scale: f64) -> [Complex64; 2] {
 #[test]
 fn a_star_of_links_has_the_figures_of_its_rods() {
     let engine = FIVE.engine(1.0, 1.0, "0");
-    let sizes = |order| turning(&engine, order, 0.06).map(|part| part.norm());
+    let sizes = |order| turning(&engine, order, 0.06).map(Complex64::norm);
     let near = |found: f64, expected: f64| {
         assert!((found / expected - 1.0).abs() < 1e-7, "{found} is not {expected}");
     };
@@ -98,11 +98,11 @@ fn a_star_of_links_has_the_figures_of_its_rods() {
 fn big_ends_of_links_leave_half_of_a_over_l_backward_until_the_master_weighs_more() {
     let star = StarRods { big_end: 1.0, ..FIVE };
     let parts = |master_mass| turning(&star.engine(0.0, master_mass, "0"), 1, 0.06);
-    let [forward, backward] = parts(0.0).map(|part| part.norm());
+    let [forward, backward] = parts(0.0).map(Complex64::norm);
     assert!((backward - 0.113_043_48).abs() < 1e-8 && (forward - 4.113_043_5).abs() < 1e-7);
     // The master's extra mass that makes the star whole again: (a/l)·m.
     let share = 52.0 / 230.0;
-    let [forward, backward] = parts(share).map(|part| part.norm());
+    let [forward, backward] = parts(share).map(Complex64::norm);
     assert!(backward < 1e-15 && (forward - 4.0 - share).abs() < 1e-14);
 }
 
@@ -279,7 +279,7 @@ fn check(engine: &Engine) {
             let crank = engine.cranks()[engine.crank_of(i)];
             let axis = Complex64::new(crank.axis[0], crank.axis[1]);
             let of_pin = Complex64::new(loads.crankpin[[i, k, 0]], loads.crankpin[[i, k, 1]]);
-            let wall = crank.ratio.sense() as f64 * -loads.side_thrust[[i, k]];
+            let wall = f64::from(crank.ratio.sense()) * -loads.side_thrust[[i, k]];
             let wall = place.bank.cis(1) * Complex64::new(loads.gas[[i, k]], wall);
             on_block += ((axis + places[k][i][1]).conj() * wall).im;
             force += wall;
@@ -410,7 +410,7 @@ fn a_v_twin_has_no_third_order_exactly_where_its_knuckle_stands_at_the_bore() {
     // A V-12: six cranks at 120° in step at order 3, and links that are alike share their symbols at order 5.
     let v12 = twelve();
     assert_eq!(verdict(&v12, 5), Verdict::Vanishes);
-    let third = turning(&v12, 3, 0.048).map(|part| part.norm());
+    let third = turning(&v12, 3, 0.048).map(Complex64::norm);
     let one = v12.mechanism(1).force(&[3], &Cancel::new()).unwrap()[0].norm();
     assert!((third[0] - 3.0 * one).abs() < 1e-14 && one > 1e-3, "{third:?}");
 }
@@ -481,7 +481,7 @@ fn link_rods_that_cannot_be_are_rejected_by_name() {
         "{long}"
     );
     assert!(star.with_link_rods(vec![None; 4]).is_err());
-    let pins: Vec<Angle> = (0..5).map(|i| angle(10.0 * i as f64)).collect();
+    let pins: Vec<Angle> = (0..5).map(|i| angle(10.0 * f64::from(i))).collect();
     assert!(star.with_pins(&pins).unwrap_err().to_string().contains("not on one crankpin"));
     let mut links = vec![None; 5];
     links[2] = Some(LinkRod { master: 1, radius: 0.05, angle: angle(72.0), big_end_mass: 0.0 });

@@ -120,7 +120,7 @@ impl Engine {
             return Err(Error::value("rods", "given", hint));
         }
         if let Some(angles) = &rods.angles {
-            limits::same_length("angles", angles.len(), "the engine", links.len(), "link rod")?;
+            limits::same_length("angles_deg", angles.len(), "the engine", links.len(), "link rod")?;
         }
         let (mut engine, mut link_rods) = (self.clone(), vec![None; count]);
         for (k, &i) in links.iter().enumerate() {

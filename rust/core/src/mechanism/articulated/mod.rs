@@ -11,6 +11,7 @@
 
 mod jet;
 mod strip;
+pub mod table;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -194,6 +195,83 @@ impl Linkage {
             + lean.times(-(self.radius * knuckle.im))
             + across.leg(self.rod)
     }
+
+    /// Amplitudes of the force, over m·r·ω²: those of even and of odd orders of samples of half a turn.
+    fn force(&self, strip: &Strip, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        let sampled = samples(|n| strip.accelerations_beyond(n));
+        let count = sampled.0;
+        let parts = |k: usize| {
+            let HalfTurnParts { even, odd } = self.beyond_crank(&sampled_crank(k, count));
+            [-even.0[2], -odd.0[2]]
+        };
+        let values: Vec<[f64; 2]> = (0..count / 2).map(parts).collect();
+        let value = |k: usize, n: u32| values[k][n as usize % 2];
+        let mut amplitudes = phasors(orders, sampled, cancel, value, count / 2)?;
+        for (&n, amplitude) in orders.iter().zip(&mut amplitudes) {
+            if n == 1 {
+                *amplitude += 1.0;
+            }
+        }
+        Ok(amplitudes)
+    }
+}
+
+/// Number of samples, and the order from which on coefficients are below what counts, of a bound of the sum of
+/// the amplitudes above one.
+fn samples(beyond: impl Fn(u32) -> Option<f64>) -> (usize, u32) {
+    let is_little = |n: u32| beyond(n).is_some_and(|bound| bound < FOLDED);
+    let mut count = FEWEST_SAMPLES;
+    while count < MOST_SAMPLES && !is_little(count as u32 / 2) {
+        count *= 2;
+    }
+    let (mut low, mut high) = (0, count as u32 / 2);
+    while low + 1 < high {
+        let middle = u32::midpoint(low, high);
+        *(if is_little(middle) { &mut high } else { &mut low }) = middle;
+    }
+    (count, high)
+}
+
+/// Phasors at some orders of values over a turn, or of values over half of it of which the rest follows.
+fn phasors(
+    orders: &[u32],
+    (count, last): (usize, u32),
+    cancel: &Cancel,
+    value: impl Fn(usize, u32) -> f64,
+    values: usize,
+) -> Result<Vec<Complex64>> {
+    let units: Vec<Complex64> =
+        (0..count).map(|k| Complex64::cis(-TAU * k as f64 / count as f64)).collect();
+    let phasor = |&n: &u32| {
+        cancel.check()?;
+        Order::whole(n)?;
+        if n > last {
+            return Ok(Complex64::ZERO);
+        }
+        let at = |k: usize| units[k * n as usize % count] * value(k, n);
+        Ok((0..values).map(at).sum::<Complex64>() * (2.0 / values as f64))
+    };
+    orders.iter().map(phasor).collect()
+}
+
+/// Positions of the crank at which there are samples.
+fn sampled_crank(k: usize, count: usize) -> CrankPosition {
+    let (sin, cos) = (TAU * k as f64 / count as f64).sin_cos();
+    CrankPosition::new(sin, cos)
+}
+
+/// Phasors of two functions over a turn.
+fn torques(
+    orders: &[u32],
+    beyond: impl Fn(u32) -> Option<f64>,
+    cancel: &Cancel,
+    torques: impl Fn(&CrankPosition) -> [f64; 2],
+) -> Result<TorqueHarmonics> {
+    let sampled = samples(beyond);
+    let count = sampled.0;
+    let values: Vec<[f64; 2]> = (0..count).map(|k| torques(&sampled_crank(k, count))).collect();
+    let of = |side: usize| phasors(orders, sampled, cancel, |k, _| values[k][side], count);
+    Ok(TorqueHarmonics { roll: of(0)?, crank: of(1)? })
 }
 
 /// The mechanism of a link rod.
@@ -222,65 +300,6 @@ impl Articulated {
     /// Whether odd orders are the crankpin's own alone.
     fn is_even(&self) -> bool {
         self.linkage.knuckle.im == 0.0 && self.linkage.master_offset == 0.0
-    }
-
-    /// Number of samples, and the order from which on coefficients are below what counts, of a bound of the sum of
-    /// the amplitudes above one.
-    fn samples(beyond: impl Fn(u32) -> Option<f64>) -> (usize, u32) {
-        let is_little = |n: u32| beyond(n).is_some_and(|bound| bound < FOLDED);
-        let mut count = FEWEST_SAMPLES;
-        while count < MOST_SAMPLES && !is_little(count as u32 / 2) {
-            count *= 2;
-        }
-        let (mut low, mut high) = (0, count as u32 / 2);
-        while low + 1 < high {
-            let middle = u32::midpoint(low, high);
-            *(if is_little(middle) { &mut high } else { &mut low }) = middle;
-        }
-        (count, high)
-    }
-
-    /// Phasors at some orders of values over a turn, or of values over half of it of which the rest follows.
-    fn phasors(
-        orders: &[u32],
-        (count, last): (usize, u32),
-        cancel: &Cancel,
-        value: impl Fn(usize, u32) -> f64,
-        values: usize,
-    ) -> Result<Vec<Complex64>> {
-        let units: Vec<Complex64> =
-            (0..count).map(|k| Complex64::cis(-TAU * k as f64 / count as f64)).collect();
-        let phasor = |&n: &u32| {
-            cancel.check()?;
-            Order::whole(n)?;
-            if n > last {
-                return Ok(Complex64::ZERO);
-            }
-            let at = |k: usize| units[k * n as usize % count] * value(k, n);
-            Ok((0..values).map(at).sum::<Complex64>() * (2.0 / values as f64))
-        };
-        orders.iter().map(phasor).collect()
-    }
-
-    /// Positions of the crank at which there are samples.
-    fn crank(k: usize, count: usize) -> CrankPosition {
-        let (sin, cos) = (TAU * k as f64 / count as f64).sin_cos();
-        CrankPosition::new(sin, cos)
-    }
-
-    /// Phasors of two functions over a turn.
-    fn torques(
-        orders: &[u32],
-        beyond: impl Fn(u32) -> Option<f64>,
-        cancel: &Cancel,
-        torques: impl Fn(&CrankPosition) -> [f64; 2],
-    ) -> Result<TorqueHarmonics> {
-        let samples = Self::samples(beyond);
-        let count = samples.0;
-        let values: Vec<[f64; 2]> = (0..count).map(|k| torques(&Self::crank(k, count))).collect();
-        let of =
-            |side: usize| Self::phasors(orders, samples, cancel, |k, _| values[k][side], count);
-        Ok(TorqueHarmonics { roll: of(0)?, crank: of(1)? })
     }
 
     /// The same figures, of which the first that is not zero is positive in what is not mirrored.
@@ -348,23 +367,7 @@ impl Mechanism for Articulated {
     }
 
     fn force(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
-        let samples = Self::samples(|n| self.strip.accelerations_beyond(n));
-        let count = samples.0;
-        let parts = |k: usize| self.linkage.beyond_crank(&Self::crank(k, count));
-        let values: Vec<[f64; 2]> = (0..count / 2)
-            .map(|k| {
-                let HalfTurnParts { even, odd } = parts(k);
-                [-even.0[2], -odd.0[2]]
-            })
-            .collect();
-        let value = |k: usize, n: u32| values[k][n as usize % 2];
-        let mut phasors = Self::phasors(orders, samples, cancel, value, count / 2)?;
-        for (&n, phasor) in orders.iter().zip(&mut phasors) {
-            if n == 1 {
-                *phasor += 1.0;
-            }
-        }
-        Ok(phasors)
+        self.linkage.force(&self.strip, orders, cancel)
     }
 
     fn force_beyond(&self, highest: u32) -> Option<f64> {
@@ -373,7 +376,7 @@ impl Mechanism for Articulated {
     }
 
     fn torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics> {
-        Self::torques(
+        torques(
             orders,
             |n| self.torque_beyond(n),
             cancel,
@@ -391,7 +394,7 @@ impl Mechanism for Articulated {
     }
 
     fn swing_torque(&self, orders: &[u32], cancel: &Cancel) -> Result<TorqueHarmonics> {
-        Self::torques(
+        torques(
             orders,
             |n| self.swing_torque_beyond(n),
             cancel,

@@ -9,6 +9,8 @@ const PLACES: usize = 96;
 const SECTIONS: usize = 40;
 /// Bisections of the height.
 const BISECTIONS: usize = 30;
+/// Part of a link rod's length below which the bound of its knuckle's distance from the bore will do.
+const LONG: f64 = 0.9;
 /// The largest value that is found may be below the true one by this part of it.
 const SEARCH: f64 = 1e-9;
 
@@ -63,21 +65,55 @@ impl Linkage {
         rivals.map(peak).fold(0.0, f64::max) * (1.0 + SEARCH)
     }
 
+    /// The part of the knuckle's distance from the bore that is a sine of the crank angle: its amplitude.
+    fn sine_amplitude(&self) -> f64 {
+        let leaning = self.radius * self.master_ratio * self.knuckle.re;
+        (1.0 - leaning * self.ahead.re).hypot(leaning * self.ahead.im)
+    }
+
+    /// Bound of the distance of the knuckle from the bore in a strip, of cosh of its height: of the sine at most its
+    /// amplitude times that, and |cos φ| ≤ √(1 + |sin φ|²).
+    fn farthest_within(&self, cosh: f64) -> f64 {
+        let (offset, lean) = (self.master_offset.abs(), self.lean_within(cosh));
+        self.sine_amplitude() * cosh
+            + self.radius * self.knuckle.re.abs() * self.master_ratio * offset
+            + self.radius * self.knuckle.im.abs() * (1.0 + lean * lean).sqrt()
+    }
+
+    fn lean_within(&self, cosh: f64) -> f64 {
+        self.master_ratio * (cosh + self.master_offset.abs())
+    }
+
+    /// Height of a strip of a master without offset in closed form, where that bound is the rod's length; zero where
+    /// the rod is shorter.
+    pub(super) fn known_height(&self) -> f64 {
+        let (size, rod) = (self.sine_amplitude(), self.rod);
+        let side = self.radius * self.knuckle.im.abs();
+        let (rest, leaning) = ((rod - side) * (rod + side), side * self.master_ratio);
+        // (L − A·x)² = s²(1 + λ²x²).
+        let root = (size * size * rod * rod - (size * size - leaning * leaning) * rest).max(0.0);
+        let cosh = (rest / (size * rod + root.sqrt())).min(1.0 / self.master_ratio);
+        if rod > side && cosh > 1.0 { cosh.acosh() } else { 0.0 }
+    }
+
     /// The widest strip that is known.
     pub(super) fn strip(&self) -> Strip {
-        let lean_within =
-            |height: f64| self.master_ratio * (height.cosh() + self.master_offset.abs());
+        let lean_within = |height: f64| self.lean_within(height.cosh());
         // The master's rod would stand across its bore where sin φ = 1.
         let mut high = (1.0 / self.master_ratio - self.master_offset.abs()).max(1.0).acosh();
         high = high.min((2.0 * (1.0 + self.rod + self.radius)).acosh());
-        let is_analytic =
-            |height: f64| lean_within(height) < 1.0 && self.farthest(height) < self.rod;
+        // A link rod that is barely long enough for its knuckle takes the distance itself, which is sampled.
+        let is_long = self.farthest_within(1.0) < LONG * self.rod;
+        let farthest = |height: f64| {
+            if is_long { self.farthest_within(height.cosh()) } else { self.farthest(height) }
+        };
+        let is_analytic = |height: f64| lean_within(height) < 1.0 && farthest(height) < self.rod;
         let mut low = 0.0;
         for _ in 0..BISECTIONS {
             let middle = f64::midpoint(low, high);
             *(if is_analytic(middle) { &mut low } else { &mut high }) = middle;
         }
-        let (lean, side) = (lean_within(low), self.farthest(low).min(self.rod));
+        let (lean, side) = (lean_within(low), farthest(low).min(self.rod));
         // |cos φ − 1| = |sin²φ|/|1 + cos φ| with a real part of cos φ above zero; and so of the link.
         let of_knuckle =
             self.radius * (self.knuckle.re.abs() * lean * lean + self.knuckle.im.abs() * lean);

@@ -190,8 +190,8 @@ impl Explanation {
             Finding::GasOrders { orders, firing, even } => self.gas_orders(orders, firing, *even),
             Finding::GivenLoad { name, largest } => given_load(name, largest.as_ref(), wording),
             Finding::Articulated { rows } => format!(
-                "{} rods share a crankpin: each rod is computed on the crankpin itself; a master rod \
-                 with articulated rods, which moves its pistons differently, is not modelled",
+                "{} rods share a crankpin: each rod is computed on the crankpin itself; link rods on a \
+                 master rod, which this engine does not have, move their pistons differently",
                 number(rows[0].len())
             ),
         }
