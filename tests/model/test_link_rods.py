@@ -155,10 +155,10 @@ def test_pressure_does_work_on_link_pistons() -> None:
     ).with_cycle(cycle)
     theta = np.linspace(0.0, 720.0, 7201)
     _, _, pistons = anew.places(star(), np.radians(theta))
-    area, work = 0.25 * np.pi * 0.12**2, np.float64(0.0)
+    area, work = 0.25 * np.pi * 0.12**2, 0.0
     for k, begins in enumerate(engine.firing_deg):
         gauge = cycle.pressure_at(theta - begins) - 101325.0
-        work += np.trapezoid(-gauge * area, abs(pistons[k]))
+        work += float(np.trapezoid(-gauge * area, abs(pistons[k])))
     # The trapezoidal rule in steps of 0.1°.
     mean = np.mean(engine.waveform(3000, theta[:-1]).crank_torque)
     assert mean == pytest.approx(work / (4.0 * np.pi), rel=1e-4)

@@ -31,7 +31,7 @@ impl CrankPosition {
         Self { sin, cos, squared, to_above, to_below }
     }
 
-    /// At so many degrees from the bore.
+    /// At an angle from the bore, degrees.
     pub(crate) fn at_degrees(degrees: f64) -> Self {
         let unit = cis_degrees(degrees);
         Self::new(unit.im, unit.re)
