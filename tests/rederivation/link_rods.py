@@ -108,3 +108,38 @@ def roll(star: Star, masses: tuple[float, ...], samples: int = 256) -> NDArray[n
     # Moments about the crankpin of the master: links, inertia along its bore, wall across it.
     from_wall = -(moment + (arm.conj() * inertia.real).imag) / arm.real
     return torque + (pistons[0].conj() * -1j * from_wall).imag
+
+
+class Hung(NamedTuple):
+    """A cylinder by its rod: directions in degrees, lengths in m, masses in kg."""
+
+    bore: float
+    rod: float
+    mass: float
+    master: int | None = None
+    """Index of the master's cylinder, of a link rod."""
+    radius: float = 0.0
+    angle: float = 0.0
+    big_end: float = 0.0
+
+
+def cylinder_forces(
+    cylinders: list[Hung], crankpins: list[Complex], samples: int
+) -> NDArray[np.float64]:
+    """Return what each cylinder adds to the force over ω²: (n_cylinders, samples, 2).
+
+    Crankpins are at samples of a turn, from the crank's axis.
+    """
+    forces = np.zeros((len(cylinders), samples, 2))
+    for k, own in enumerate(cylinders):
+        lower = crankpins[k]
+        if own.master is not None:
+            master = cylinders[own.master]
+            shank = on_bore(lower, master.rod, master.bore) - lower
+            lower = lower + own.radius * shank / master.rod * np.exp(1j * np.radians(own.angle))
+        momentum = own.mass * derivative(on_bore(lower, own.rod, own.bore))
+        if own.master is not None:
+            momentum = momentum + own.big_end * derivative(lower)
+        force = -derivative(momentum)
+        forces[k] = np.stack([force.real, force.imag], axis=1)
+    return forces
