@@ -10,6 +10,7 @@ from crankpin.analysis.balancing.counterweights import counterweights as counter
 from crankpin.analysis.balancing.two_plane import two_plane_correction as two_plane_correction
 from crankpin.analysis.bearings import bearing_loads as bearing_loads
 from crankpin.analysis.comparison import compare as compare
+from crankpin.analysis.dead_centres import dead_centres as dead_centres
 from crankpin.analysis.design.design import design as design
 from crankpin.analysis.exercises import exercise as exercise
 from crankpin.analysis.firing import throws as throws
@@ -42,6 +43,9 @@ from crankpin.model.cylinder import Rod as Rod
 from crankpin.model.cylinder import slider_crank_harmonics as slider_crank_harmonics
 from crankpin.model.engine import Engine as Engine
 from crankpin.model.gas_torque import gas_torque_harmonics as gas_torque_harmonics
+from crankpin.model.links import LinkRod as LinkRod
+from crankpin.model.links import LinkRods as LinkRods
+from crankpin.model.links import link_rod_harmonics as link_rod_harmonics
 from crankpin.model.loads import PeriodicLoad as PeriodicLoad
 from crankpin.model.mounts import InertiaTrack as InertiaTrack
 from crankpin.model.mounts import Mount as Mount

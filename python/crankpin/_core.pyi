@@ -84,6 +84,7 @@ __all__ = [
     "inertia_by_irregularity",
     "inline_throws",
     "irregularity_by_order",
+    "link_rod_table",
     "listed_orders",
     "load_rows",
     "low_passed",
@@ -340,6 +341,23 @@ class Engine:
     def keeping(
         self, details: Sequence[_Kept], mains: Sequence[float], reference_z: float | None
     ) -> Engine: ...
+    @property
+    def link_rods(self) -> list[tuple[int, float, str, float] | None]: ...
+    def with_link_rods(
+        self, link_rods: Sequence[tuple[int, float, str, float] | None]
+    ) -> Engine: ...
+    def with_master_rods(
+        self,
+        radius: float,
+        length: float | None,
+        angles_deg: Sequence[str] | None,
+        big_end_mass: float | None,
+        masters: Sequence[int] | None,
+    ) -> Engine: ...
+    def dead_centres(
+        self, compression_ratio: float | None
+    ) -> list[tuple[float, float, float, float, float | None]]: ...
+    def rod_ends(self, theta_deg: float) -> list[tuple[complex, complex]]: ...
     def with_bank_angle(self, bank_angle: str, held: str) -> Engine: ...
     def with_first_tdc(self, tdc: str) -> Engine: ...
     @property
@@ -837,6 +855,14 @@ def cylinder_torque_harmonics(
     parts: _Parts, orders: Sequence[int]
 ) -> tuple[_Complex, _Complex]: ...
 def centred_table(rod_ratios: _Real, orders: Sequence[int], rtol: float | None = None) -> _Real: ...
+def link_rod_table(
+    rod_ratios: NDArray[np.float64],
+    master_ratios: NDArray[np.float64],
+    knuckle_ratios: NDArray[np.float64],
+    bores_deg: NDArray[np.float64],
+    knuckles_deg: NDArray[np.float64],
+    orders: Sequence[int],
+) -> NDArray[np.complex128]: ...
 def offset_table(
     rod_ratios: _Real, offsets: _Real, orders: Sequence[int], rtol: float | None = None
 ) -> _Complex: ...

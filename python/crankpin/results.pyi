@@ -13,6 +13,7 @@ from crankpin.analysis.bearings import BearingLoads as BearingLoads
 from crankpin.analysis.by_order import OrderBalance as OrderBalance
 from crankpin.analysis.closed_form import ClosedForm as ClosedForm
 from crankpin.analysis.comparison import Comparison as Comparison
+from crankpin.analysis.dead_centres import DeadCentres as DeadCentres
 from crankpin.analysis.design.designs import Design as Design
 from crankpin.analysis.design.designs import Designs as Designs
 from crankpin.analysis.exercises import Exercise as Exercise

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rederivation import time_domain
+from rederivation import link_rods, time_domain
 from support import html_of, in_turn
 from support.several_cranks import random_engine
 
@@ -155,6 +155,26 @@ WITH_HARDWARE = [
 # --- the numbers ----------------------------------------------------------------------------------
 
 
+def linked_forces(engine: cp.Engine, theta: np.ndarray) -> np.ndarray:
+    """What each cylinder of an engine with link rods adds over a turn, N."""
+    hung = []
+    for bore, cylinder, link in zip(
+        engine.bank_deg, engine.cylinders, engine.link_rods, strict=True
+    ):
+        rod = link_rods.Hung(float(bore), cylinder.rod_length, cylinder.reciprocating_mass)
+        if link is not None:
+            rod = rod._replace(
+                master=link.master - 1, radius=link.radius, angle=link.angle_deg,
+                big_end=link.big_end_mass,
+            )  # fmt: skip
+        hung.append(rod)
+    crankpins = [
+        cylinder.crank_radius * np.exp(1j * (np.radians(pin) + theta))
+        for cylinder, pin in zip(engine.cylinders, engine.pin_deg, strict=True)
+    ]
+    return link_rods.cylinder_forces(hung, crankpins, len(theta)) * OMEGA_SQUARED
+
+
 class Numbers:
     """Figures of an engine, from its balance and from the re-derivation over time."""
 
@@ -183,6 +203,8 @@ class Numbers:
         )
         theta = time_domain.crank_angles(256)
         forces = time_domain.cylinder_forces(lists, RPM, theta)
+        if any(engine.link_rods):
+            forces = linked_forces(engine, theta)
         self.cylinders = 2 * np.fft.fft(forces, axis=1) / 256  # (cylinder, order, axis)
 
     def of(self, quantity: str, order: float) -> Any:
@@ -635,8 +657,8 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
     (
         RADIAL,
         None,
-        ("Seven rods share a crankpin: each rod is computed on the crankpin itself; a master rod "
-        "with articulated rods, which moves its pistons differently, is not modelled."),
+        ("Seven rods share a crankpin: each rod is computed on the crankpin itself; link rods "
+        "on a master rod, which this engine does not have, move their pistons differently."),
     ),
     (WITH_HARDWARE[-2], None, "one throw's first-order force"),
     (WITH_HARDWARE[-1], None, ("a shaking force of 0.04 kg·m times ω², constant in size, turning "

@@ -69,7 +69,8 @@ UNDEFINED = {
 """Figures of the instances that are not finite, by what their docstrings say."""
 
 HOLD_ANYTHING = {
-    *("AdaptiveLaw", "BalancerOption", "BobWeight", "Card", "Choice", "Design", "Match"),
+    *("AdaptiveLaw", "BalancerOption", "BobWeight", "Card", "Choice", "DeadCentres", "Design"),
+    "Match",
     *("MountDesign", "MountModes", "MountRobustness", "OrderBalance", "OrderResponse"),
     *("FoundationTable", "GuideMoments", "LocomotiveForces"),
     *("PointMotion", "Quantity", "RollAxes", "StarDiagram", "StaticState", "Table"),

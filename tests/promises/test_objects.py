@@ -162,6 +162,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Design",
         "FlywheelDisc",
         "FlywheelRim",
+        "LinkRod",
     )
     assert found or name.startswith(without)
     for attribute, array in found:
@@ -231,7 +232,7 @@ def test_completion_offers_what_is_public() -> None:
 
 INPUTS = (
     cp.Engine, cp.Cylinder, cp.Rod, cp.Shaft, cp.Unbalance, cp.Cycle, cp.CycleMap, cp.Traces,
-    cp.ValveTiming,
+    cp.ValveTiming, cp.LinkRod, cp.LinkRods,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
     cp.Locomotive,
@@ -666,6 +667,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "BearingLoads",
         "BobWeight",
         "Card",
+        "DeadCentres",
         "Exercise",
         "Explanation",
         "Flywheel",

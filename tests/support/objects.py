@@ -33,6 +33,10 @@ ODD = cp.Engine.from_lists(
     name='quotes " and \\ and\nlines, Ω',
 )
 I4 = cp.Engine.preset("i4", cylinder=OFFSET.replace(bore=0.09))
+LINKED = cp.Engine.radial(
+    cp.Cylinder(0.06, 0.23, 1.0, bore=0.12), 5,
+    rods=cp.LinkRods(0.052, 0.178, big_end_mass=0.3),
+)  # fmt: skip
 FIRED = I4.with_cycle([cp.Cycle.example(), cp.Cycle.example(), None, cp.Cycle.example()])
 SPECTRUM = {1: 0.5, 2: 0.1 + 0.05j}
 THETA = np.arange(0.0, 720.0, 10.0)
@@ -190,6 +194,10 @@ OBJECTS = Made(
         "Designs by a function": lambda: designs(by=lambda b: b.total.moment.peak, shafts=[-1, 2]),
         "Design": lambda: designs()[0],
         "Rod": lambda: cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05),
+        "LinkRod": lambda: cp.LinkRod(1, 0.052, "360/7", 0.3),
+        "LinkRods": lambda: cp.LinkRods(0.052, 0.178, [72, "360/7"], 0.3),
+        "DeadCentres": lambda: cp.dead_centres(LINKED, compression_ratio=6),
+        "Engine with link rods": lambda: LINKED,
         "Shaft": lambda: cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1),
         "Unbalance": lambda: cp.Unbalance(0.01, 0.1, "360/7"),
         "ValveTiming": cp.ValveTiming,
@@ -279,7 +287,8 @@ OBJECTS = Made(
 )
 
 UNTABLED = {
-    "Cylinder", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming", "InertiaTrack",
+    "Cylinder", "LinkRod", "LinkRods", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming",
+    "InertiaTrack",
     "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip

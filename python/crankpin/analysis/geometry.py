@@ -42,7 +42,7 @@ class Geometry:
     crankpin: NDArray[np.complex128]
     """Crankpins, m."""
     rod_foot: NDArray[np.complex128]
-    """Lower ends of the rods, m: the crankpins, but of the bars of Scotch yokes."""
+    """Lower ends of the rods, m: crankpins, knuckles of link rods, bars of Scotch yokes."""
     wrist_pin: NDArray[np.complex128]
     """Piston pins, m."""
     lowest: NDArray[np.float64]
@@ -63,7 +63,8 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     radius, offset = np.array(
         [(cylinder.crank_radius, cylinder.pin_offset) for cylinder in cylinders]
     ).T
-    highest, lowest = np.array([cylinder._ends for cylinder in cylinders]).T
+    ends = np.array([end[2:4] for end in engine._core.dead_centres(None)])
+    highest, lowest = ends[:, 0], ends[:, 0] - ends[:, 1]
     # The bar of a yoke stands between the piston and the middle of its stroke.
     yokes = np.isinf([cylinder.rod_length for cylinder in cylinders])
     bar = np.where(yokes, [drawn_rod(cylinder) for cylinder in cylinders], 0.0)
@@ -71,19 +72,16 @@ def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
     axis, ratio = _cranks(engine)
     # The offset is on the side to which the crankpin swings after top dead centre.
     foot = axis + 1j * np.sign(ratio) * offset * along
-    turns = abs(ratio) * (theta - engine.tdc_deg)
-    height = bar + [
-        float(cylinder.position(at)) for cylinder, at in zip(cylinders, turns, strict=True)
-    ]
+    lower, wrist_pin = np.array(engine._core.rod_ends(theta)).T
+    wrist_pin = wrist_pin + bar * along
     crankpin = axis + radius * direction(engine.pin_deg + ratio * theta)
-    wrist_pin = foot + height * along
     return Geometry(
         theta_deg=theta,
         axis=axis,
         along=along,
         foot=foot,
         crankpin=crankpin,
-        rod_foot=np.where(yokes, wrist_pin - bar * along, crankpin),
+        rod_foot=np.where(yokes, wrist_pin - bar * along, lower),
         wrist_pin=wrist_pin,
         lowest=lowest + bar,
         highest=highest + bar,

@@ -19,6 +19,7 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
+from crankpin.model.links import LinkRods
 from crankpin.model.mounts import Mount, RigidBody
 
 if TYPE_CHECKING:
@@ -87,6 +88,26 @@ def _crank(call: Given, flag: str, parts: list[str]) -> tuple[float, float, int]
     return x, y, int(parts[2])
 
 
+def _rods(call: Given, flag: str) -> LinkRods:
+    """Return link rods: radius and length, mass at the knuckle, and angles of the knuckles."""
+    parts = call.text(flag).split(":")
+    if not 2 <= len(parts) <= 4:
+        raise rejected(flag, call.text(flag), f"give {RODS}, such as 52mm:178mm:400g")
+    radius, length = (call.one(flag, part, "m") for part in parts[:2])
+    mass = call.one(flag, parts[2], "kg") if len(parts) > 2 else None
+    angles = parts[3].split(",") if len(parts) > 3 else "bores"
+    return LinkRods(radius, length, angles, mass)
+
+
+def _masters(call: Given, flag: str) -> str | list[int]:
+    """Return the bank of the master rods, or numbers of their cylinders."""
+    text = call.text(flag)
+    numbers = [part.strip() for part in text.split(",")]
+    return [int(number) for number in numbers] if all(map(str.isdecimal, numbers)) else text
+
+
+RODS = "RADIUS:LENGTH[:MASS[:ANGLE,…]]"
+
 LAYOUT = {
     shape.label: shape
     for shape in (
@@ -102,6 +123,8 @@ LAYOUT = {
         ),
         *(_of_shape(Engine.vee, name) for name in ("bank_stagger", "odd_bank", "numbering")),
         _of_shape(Engine.vee, "absent"),
+        _of_shape(Engine.vee, "rods", "--link-rods", read=_rods, metavar=RODS),
+        _of_shape(Engine.vee, "master", read=_masters, metavar="BANK|NUMBER,…"),
         _of_shape(Engine.radial, "cylinders"),
         _of_shape(Engine.radial, "rows"),
         _of_shape(Engine.vee, "firing_order"),

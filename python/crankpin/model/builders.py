@@ -17,6 +17,7 @@ from crankpin.model import checks
 from crankpin.model import shafts as rotating
 from crankpin.model.data import Cranks, EngineData, allowed, big_end, core_of_lists, parts
 from crankpin.model.furnishing import furnished, one_of
+from crankpin.model.links import LinkRods
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.furnishing import Cylinders
+    from crankpin.model.links import Masters
     from crankpin.model.shafts import Shaft, Unbalance
 
 FANS = {"W": (30, 90, 150), "X": (45, 135, 225, 315), "Y": (90, 210, 330), "H": (0, 180)}
@@ -190,6 +192,8 @@ class Builders(EngineData):
         odd_bank: Side = "right",
         absent: Iterable[int] = (),
         rotating_mass: ArrayLike | None = None,
+        rods: LinkRods | None = None,
+        master: Masters | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
@@ -211,6 +215,12 @@ class Builders(EngineData):
             Cylinders that are not there, by their numbers in the whole vee: of three throws 6
             leaves a V5. Those that are there are numbered anew from 1; ``[2, 3, 6]`` leaves a V3
             with a cylinder on each throw, by turns right and left.
+        rods : LinkRods, optional
+            Link rods on the master rods of one bank; by default each rod is on its crankpin, side
+            by side or as fork and blade.
+        master : int, sequence of int or str, optional
+            Bank with the master rods, ``"right"`` or ``"left"``, or numbers of their cylinders; by
+            default the first of each throw.
 
         Returns
         -------
@@ -246,7 +256,8 @@ class Builders(EngineData):
         )  # fmt: skip
         checks.pin_split(core, layout["pin_split"])
         engine = cls(core, name, source, "", strokes)
-        return furnished(engine, cylinder, rotating_mass, firing_order)
+        engine = furnished(engine, cylinder, rotating_mass, firing_order)
+        return _linked(engine, rods, master)
 
     @classmethod
     @documented(vee)
@@ -341,6 +352,8 @@ class Builders(EngineData):
         rows: int = 1,
         spacing: ArrayLike | None = None,
         rotating_mass: ArrayLike | None = None,
+        rods: LinkRods | None = None,
+        master: Masters | None = None,
         first_tdc_deg: Angle = 0.0,
         firing_order: str | Iterable[int] | None = None,
         strokes: int = 4,
@@ -351,9 +364,9 @@ class Builders(EngineData):
 
         Cylinder 1 is upright; numbers ascend in the direction of rotation, in two rows from row to
         row. Pins of several rows share the turn, half a turn apart of two, a quarter of four, and
-        cylinders of each row stand between those of the others. All rods count as if each had its
-        own bearing on the crankpin: articulated rods on a master rod, whose pistons move a little
-        differently and leave a force of order 2, are not modelled.
+        cylinders of each row stand between those of the others. Without ``rods`` all rods count as
+        if each had its own bearing on the crankpin; link rods, whose pistons move a little
+        differently, leave a force of order 2 that turns with the crank.
 
         Parameters
         ----------
@@ -364,6 +377,11 @@ class Builders(EngineData):
         spacing : float or array_like, optional
             Distance between neighbouring rows, m, or of each from the one before it; of one row it
             may be left out.
+        rods : LinkRods, optional
+            Link rods on a master rod in each row; by default there are none.
+        master : int or sequence of int, optional
+            Numbers of the cylinders that have the master rods, one in each row; by default the
+            first of each.
         firing_order : str or sequence of int, optional
             …; by default every second cylinder of a row, and the rows by
             turns, if that is even: in a four-stroke for odd numbers of cylinders in a row.
@@ -400,7 +418,7 @@ class Builders(EngineData):
         if order is None:
             order = _core.Engine.radial_firing_order(layout, inputs.strokes(strokes))
         engine = cls(core, name, source, "", strokes)
-        return furnished(engine, cylinder, rotating_mass, order)
+        return _linked(furnished(engine, cylinder, rotating_mass, order), rods, master)
 
     @classmethod
     @documented(vee)
@@ -1125,6 +1143,16 @@ def _cranks(cranks: object, crank: object, bank_deg: Angles) -> Cranks | None:
         if text > len(further):
             raise inputs.rejected("crank", text, f"there are cranks 0 to {len(further)}")
     return [(0.0, 0.0, 1), *further], places
+
+
+def _linked(engine: OfCranks, rods: LinkRods | None, master: Masters | None) -> OfCranks:
+    """Return an engine with link rods, if there are any."""
+    if rods is None:
+        inputs.only_with("rods", master=master)
+        return engine
+    if not isinstance(rods, LinkRods):
+        raise inputs.rejected("rods", rods, "give crankpin.LinkRods; others: Engine.with_link_rods")
+    return engine.with_link_rods(rods, master=master)
 
 
 def vee_layout(

@@ -14,7 +14,7 @@ from crankpin._support import files, inputs, labels
 from crankpin._support.messages import Hint, suppressed
 from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, read_only
-from crankpin.model import checks, engine_files
+from crankpin.model import checks, engine_files, links
 from crankpin.model import loads as periodic
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Order
+    from crankpin.model.links import LinkRod, LinkRods, Masters
     from crankpin.model.loads import PeriodicLoad
     from crankpin.model.shafts import Shaft, Unbalance
 
@@ -402,6 +403,11 @@ class EngineData:
         """Periodic loads besides pistons, pressure and unbalances."""
         return periodic.loads(self._core)
 
+    @property
+    def link_rods(self) -> tuple[LinkRod | None, ...]:
+        """Where the rod of each cylinder hangs on a master rod; None of a rod on its crankpin."""
+        return links.links(self._core)
+
     # --- changed copies -------------------------------------------------------------------------
 
     def _rotating(self, cylinder: Cylinder | Sequence[Cylinder] | None) -> list[float]:
@@ -458,6 +464,53 @@ class EngineData:
         True
         """
         return type(self)(rotating.with_counterweights(self._core, counterweights))
+
+    def with_link_rods(
+        self, rods: LinkRods | Sequence[LinkRod | None], *, master: Masters | None = None
+    ) -> Self:
+        """Return the same engine with link rods that hang on master rods.
+
+        A link rod's piston moves a little differently from its master's: see :doc:`what a link rod
+        does to balance </explanations/link-rods>`. All analyses count it. Its cycle begins where
+        the piston is highest, some degrees from where the crankpin points along the bore. Sweeps of
+        lengths and of the bank angle, and tolerances of lengths, reject engines with link rods.
+
+        Parameters
+        ----------
+        rods : LinkRods or sequence of LinkRod or None
+            Link rods of all cylinders that share a crankpin with a master rod, or one for each
+            cylinder, None of a rod on its crankpin; ``[None] * len(engine)`` takes them away.
+        master : int, sequence of int or str, optional
+            With :class:`LinkRods`: number of the cylinder of the master rod, several of engines
+            with several crankpins, or the name of their bank; by default the first cylinder of each
+            crankpin that several share.
+
+        Returns
+        -------
+        Engine
+            The engine with them.
+
+        Raises
+        ------
+        InputError
+            If a link rod is too short for its knuckle, or its cylinder is not on the crankpin of
+            the master.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.048, 0.19, 1.0)
+        >>> v12 = cp.Engine.vee(
+        ...     cylinder, bank_angle_deg=60, throws_deg=[0, 120, 240, 240, 120, 0], spacing=0.1
+        ... )
+        >>> rods = cp.LinkRods(radius=0.038, length=0.152, angles_deg=[67] * 6)
+        >>> v12.with_link_rods(rods, master="right").vanishing_orders(range(1, 8)).force.remaining
+        (3, 6)
+        """
+        if isinstance(rods, links.LinkRods):
+            return type(self)(links.with_masters(self._core, self.banks, rods, master))
+        inputs.only_with("rods", master=master)
+        return type(self)(links.with_links(self._core, rods))
 
     def with_shafts(self, shafts: Iterable[Shaft]) -> Self:
         """Return the same engine with these balance shafts in place of those it has.
@@ -665,7 +718,8 @@ class EngineData:
 
         A firing order that the changed crank does not allow is dropped, unless it is given; dummy
         pistons leave it, and have no cycle. A cylinder with another ``rod`` brings its big end as
-        rotating mass, unless the engine's differs from the big end of the rod that it had.
+        rotating mass, unless the engine's differs from the big end of the rod that it had. Link
+        rods hang where they did.
 
         Parameters
         ----------
@@ -732,6 +786,7 @@ class EngineData:
         )
         weights = self.counterweights if counterweights is None else counterweights
         core = rotating.with_counterweights(core, weights)
+        core = links.with_links(core, self.link_rods)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
         core = periodic.with_loads(core, self.loads if loads is None else loads)
         count = self.strokes if strokes is None else inputs.strokes(strokes)

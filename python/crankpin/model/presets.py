@@ -22,6 +22,7 @@ from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
+from crankpin.model.links import LinkRods
 
 if TYPE_CHECKING:
     from crankpin._core import InputError
@@ -160,6 +161,8 @@ class Layout(NamedTuple):
         one = cylinder if isinstance(cylinder, Cylinder) else cylinder[0]
         if one.rod is not None and "rotating_mass" not in changes:
             arguments.pop("rotating_mass", None)  # a rod brings its own
+        if isinstance(rods := arguments.get("rods"), dict):
+            arguments["rods"] = LinkRods(**rods)
         if "places" in arguments:  # in spacings, and a pin offset for each cylinder
             places = arguments.pop("places")
             offsets = arguments.pop("pin_offset", [0.0] * len(places))

@@ -71,7 +71,7 @@ class Settings:
         if self.rod_ratio in (None, own):
             return
         if reached is None:
-            hint = "other rods would fire pistons that share a chamber elsewhere; leave it out"
+            hint = "other rods would move link rods or the firing of a shared chamber; leave it out"
             raise inputs.rejected("rod_ratio", self.rod_ratio, hint)
         least, most = reached
         if not least <= self.rod_ratio <= most:
@@ -201,9 +201,10 @@ def at_rod_ratio(engine: Engine, ratio: float | None) -> Engine:
 
 
 def _bank_angle(engine: Engine) -> float | None:
-    """Return the bank angle that a page can set, degrees: of two banks on one crank."""
-    several = len(engine_core(engine).cranks[0]) > 1
-    return None if several else getattr(engine, "bank_angle_deg", None)
+    """Return the bank angle that a page can set, degrees: of a vee on one crank, without links."""
+    core = engine_core(engine)
+    is_fixed = len(core.cranks[0]) > 1 or any(core.link_rods)
+    return None if is_fixed else getattr(engine, "bank_angle_deg", None)
 
 
 def _controls(engine: Engine, controls: Controls, *, compact: bool) -> list[str]:

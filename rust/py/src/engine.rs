@@ -8,8 +8,8 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, CrankEnd, CrankIndex, Details, EngineOnCrank, Gas, Hold, PeriodicLoad, RodFigures,
-    Shaft, Station, Unbalance, file,
+    Crank, CrankEnd, CrankIndex, Details, EngineOnCrank, Gas, Hold, LinkRod, LinkRods,
+    PeriodicLoad, RodFigures, Shaft, Station, Unbalance, file,
 };
 use crankpin_core::index::ListIndex;
 use crankpin_core::layout::{
@@ -68,6 +68,13 @@ struct Bay<'py> {
 /// Bore, piston mass, the rod's mass, inertia and place of its centre, and whether it is a dummy, or driven by side
 /// rods.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>, bool, bool);
+
+/// Index of the master's cylinder, radius of the knuckle, m, its angle as text that reads back exactly, mass, kg.
+type Link = (usize, f64, String, f64);
+/// The same, its angle read.
+type GivenLink = (usize, f64, Angle, f64);
+/// Angles of highest and lowest point, degrees, height and stroke, m, and compression ratio.
+type Ends = (f64, f64, f64, f64, Option<f64>);
 
 /// A crankpin: numbers of its cylinders, its place, m, and index of its crank.
 #[derive(IntoPyObject)]
@@ -597,6 +604,53 @@ impl Engine {
         });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
         engine.and_then(|e| e.with_reference(reference_z)).or_raise().map(Self::from)
+    }
+
+    /// Link rods of the cylinders that have one.
+    #[getter]
+    fn link_rods(&self) -> Vec<Option<Link>> {
+        let link = |l: &LinkRod| (l.master, l.radius, l.angle.to_string(), l.big_end_mass);
+        self.0.link_rods().iter().map(|own| own.as_ref().map(link)).collect()
+    }
+
+    fn with_link_rods(&self, link_rods: Vec<Option<GivenLink>>) -> PyResult<Self> {
+        let link = |(master, radius, angle, big_end_mass): GivenLink| LinkRod {
+            master,
+            radius,
+            angle: angle.0,
+            big_end_mass,
+        };
+        let link_rods = link_rods.into_iter().map(|own| own.map(link)).collect();
+        self.0.with_link_rods(link_rods).or_raise().map(Self::from)
+    }
+
+    /// With master rods in some cylinders, and link rods in those beside them.
+    fn with_master_rods(
+        &self,
+        radius: f64,
+        length: Option<f64>,
+        angles_deg: Option<Vec<Angle>>,
+        big_end_mass: Option<f64>,
+        masters: Option<Vec<usize>>,
+    ) -> PyResult<Self> {
+        let rods = LinkRods { radius, length, angles: angles_deg.map(angles), big_end_mass };
+        self.0.with_master_rods(&rods, masters.as_deref()).or_raise().map(Self::from)
+    }
+
+    /// Angles of the highest and the lowest point, degrees, height and stroke, m, and compression ratio of each
+    /// cylinder.
+    fn dead_centres(&self, compression_ratio: Option<f64>) -> PyResult<Vec<Ends>> {
+        let found = self.0.dead_centres(compression_ratio).or_raise()?;
+        let ends = |e: core::engine::DeadCentres| {
+            let [highest, lowest] = e.angles_deg;
+            (highest, lowest, e.height, e.stroke, e.compression_ratio)
+        };
+        Ok(found.into_iter().map(ends).collect())
+    }
+
+    /// Ends of each rod at a crank angle, m: at its crankpin or knuckle, and at its piston.
+    fn rod_ends(&self, theta_deg: f64) -> Vec<(Complex64, Complex64)> {
+        self.0.rod_ends(theta_deg).into_iter().map(|[low, high]| (low, high)).collect()
     }
 
     fn with_bank_angle(&self, bank_angle: Angle, held: &str) -> PyResult<Self> {

@@ -71,8 +71,8 @@ mod _core {
         search::{BankAngles, Search, arrangement},
         slider_crank::{
             centred_table, check_cylinder, crank_radius_of_stroke, cylinder_harmonics,
-            cylinder_torque_harmonics, estimated_rod_inertia, motion, offset_table, piston_travel,
-            rod_parts, turning_points,
+            cylinder_torque_harmonics, estimated_rod_inertia, link_rod_table, motion, offset_table,
+            piston_travel, rod_parts, turning_points,
         },
         sweep::Sweep,
         tolerances::{Tolerances, orders_of_samples, peaks_of_sums},

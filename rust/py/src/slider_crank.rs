@@ -2,6 +2,7 @@
 
 use crate::array::writeable;
 use crankpin_core::harmonics::{table, torque};
+use crankpin_core::mechanism::articulated::table::{self as links, LinkFigures};
 use crankpin_core::motion::CrankPosition;
 use crankpin_core::{Complex64, Cylinder, Order, angle, crank_angles, limits, memory, order, rod};
 use crankpin_macros::guarded;
@@ -147,6 +148,30 @@ pub fn centred_table<'py>(
     interrupt::written(py, shape, None, |out, cancel| {
         table::write_centred(ratios, &orders, rtol, out, cancel)
     })
+}
+
+/// Harmonics of many link rods: (n, `n_orders`).
+#[guarded]
+#[pyfunction]
+pub fn link_rod_table<'py>(
+    py: Python<'py>,
+    rod_ratios: PyReadonlyArray1<'py, f64>,
+    master_ratios: PyReadonlyArray1<'py, f64>,
+    knuckle_ratios: PyReadonlyArray1<'py, f64>,
+    bores_deg: PyReadonlyArray1<'py, f64>,
+    knuckles_deg: PyReadonlyArray1<'py, f64>,
+    orders: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    let figures = LinkFigures {
+        rod_ratios: rod_ratios.as_slice()?,
+        master_ratios: master_ratios.as_slice()?,
+        knuckle_ratios: knuckle_ratios.as_slice()?,
+        bores_deg: bores_deg.as_slice()?,
+        knuckles_deg: knuckles_deg.as_slice()?,
+    };
+    table::check_size::<Complex64>(figures.rod_ratios.len(), &orders).or_raise()?;
+    let shape = [figures.rod_ratios.len(), orders.len()];
+    interrupt::written(py, shape, None, |out, cancel| links::write(figures, &orders, out, cancel))
 }
 
 /// Harmonics for many pairs of rod ratio and offset over r, to all digits: (n, `n_orders`).

@@ -129,9 +129,21 @@ export function placesAt({ cylinders, weights: all }, thetaDeg) {
   return {
     thetaDeg,
     crank,
-    cylinders: cylinders.map((each) => cylinderPlaces(each, crank)),
+    cylinders: hung(cylinders, cylinders.map((each) => cylinderPlaces(each, crank))),
     weights: all.map((each) => multiply(each.start, turnedBy(crank, each.ratio))),
   };
+}
+
+/** The same places, with the feet of link rods at their knuckles, which turn with the master rods. */
+function hung(cylinders, places) {
+  return places.map((place, k) => {
+    const { link } = cylinders[k];
+    if (!link) return place;
+    const { crankpin, wrist } = places[link.master];
+    const [x, y] = [wrist[0] - crankpin[0], wrist[1] - crankpin[1]];
+    const shank = scale([x, y], link.radius / Math.hypot(x, y));
+    return { ...place, foot: add(crankpin, multiply(shank, unit(link.angle_deg))) };
+  });
 }
 
 function cylinderPlaces(cylinder, crank) {

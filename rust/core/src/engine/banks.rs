@@ -74,6 +74,7 @@ impl Engine {
     /// bank angle would have to say about which.
     pub(crate) fn check_bank_angle_can_change(&self) -> Result<Banks> {
         self.check_one_crank("a change of bank_angle_deg")?;
+        self.check_no_link_rods("bank_angle_deg")?;
         self.banks()
     }
 

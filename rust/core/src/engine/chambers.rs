@@ -60,14 +60,15 @@ impl Engine {
         cylinders().filter(|&i| self.fires_as(i) == i).map(of).collect()
     }
 
-    /// Angle of the main crank from a piston's top dead centre to where its chamber is smallest, if it shares that or
-    /// side rods drive it; none of a chamber over one piston, whose cycle begins at top dead centre.
+    /// Angle of the main crank from a piston's top dead centre to where its cycle begins: where the chamber is
+    /// smallest, if the piston shares it or side rods drive it, or where the piston of a link rod is highest; none of
+    /// a chamber over one piston whose cycle begins at top dead centre.
     #[must_use]
     pub fn chamber_delay(&self, cylinder: usize) -> Option<Angle> {
         let shared = self.shared_chamber(cylinder).map(|(chamber, place)| chamber.delays[place]);
         shared.or_else(|| {
             let is_inner = self.working_face(cylinder) == Face::Inner;
-            is_inner.then(|| self.lowest_after_tdc(cylinder))
+            is_inner.then(|| self.lowest_after_tdc(cylinder)).or_else(|| self.link_delay(cylinder))
         })
     }
 
@@ -174,7 +175,9 @@ impl Engine {
             let gear = &self.stations[i].cylinder;
             (gear.crank_radius(), gear.rod_length(), self.details[i].bore)
         };
-        let is_even = pistons.iter().all(|&i| self.stations[i].cylinder.pin_offset() == 0.0);
+        let is_even = pistons
+            .iter()
+            .all(|&i| self.stations[i].cylinder.pin_offset() == 0.0 && self.link_rods[i].is_none());
         let is_alike = faces[0] == faces[1] && sizes(pistons[0]) == sizes(pistons[1]);
         let first = if is_even && (is_alike || apart == Angle::ZERO) {
             apart.half()
@@ -207,8 +210,7 @@ impl Engine {
             rate(0, degrees) + rate(1, degrees - apart) < 0.0
         };
         let smallest = |k: usize| {
-            let turning = self.stations[pistons[k]].cylinder.turning_points_deg();
-            turning[faces[k].turning_point()] - dead_centres[k]
+            mechanisms[k].turning_points_deg()[faces[k].turning_point()] - dead_centres[k]
         };
         let ends = [smallest(0), apart + smallest(1)];
         let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));

@@ -1,6 +1,6 @@
 //! Crankpins, throws and main bearings, read off an engine's stations.
 
-use super::{Crank, CrankIndex, Engine, Unbalance};
+use super::{Crank, CrankIndex, Engine, LinkRod, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::decimal;
 use crate::numbers::error::{Error, Result, shorten};
@@ -191,8 +191,15 @@ impl Engine {
         };
 
         let weights = self.counterweights().iter().copied().filter(is_inside).map(at_own_angle);
+        // A master rod and its links share a crankpin, hence a bay.
+        let link = |link: LinkRod| {
+            let master = bay.cylinders.iter().position(|&i| i == link.master)?;
+            Some(LinkRod { master, ..link })
+        };
+        let link_rods = bay.cylinders.iter().map(|&i| self.link_rods()[i].and_then(link)).collect();
         Self::in_banks("", "", stations, &banks)?
             .with_cranks(cranks.to_vec(), vec![own.position(); bay.cylinders.len()])?
+            .with_link_rods(link_rods)?
             .with_counterweights(weights.collect())?
             .with_reference(Some(bay.z()))
     }

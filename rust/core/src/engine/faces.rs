@@ -111,7 +111,7 @@ impl Engine {
 
     /// Angle of the main crank from top dead centre to where a piston is lowest.
     pub(super) fn lowest_after_tdc(&self, cylinder: usize) -> Angle {
-        let [_, lowest] = self.stations[cylinder].cylinder.turning_points_deg();
+        let [_, lowest] = self.mechanism(cylinder).turning_points_deg();
         // An angle that is finite.
         Angle::from_degrees(lowest).unwrap_or(Angle::HALF_TURN)
     }

@@ -7,7 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::layout::Strokes;
 use super::{
-    Crank, CrankEnd, Details, Engine, Gas, PeriodicLoad, RodFigures, Shaft, Station, Unbalance,
+    Crank, CrankEnd, Details, Engine, Gas, LinkRod, PeriodicLoad, RodFigures, Shaft, Station,
+    Unbalance,
 };
 use crate::mechanism::cylinder::Cylinder;
 use crate::mounts::Powertrain;
@@ -146,6 +147,24 @@ struct StationEntry {
     second_turn: Option<bool>,
     #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
+    /// Where its rod hangs, if it is a link rod.
+    #[serde(default, skip_serializing_if = "is_default")]
+    link: Option<LinkEntry>,
+}
+
+/// A link rod: its place on the master rod.
+#[derive(Serialize, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct LinkEntry {
+    /// Number of the cylinder of the master rod.
+    master: usize,
+    radius: f64,
+    /// Absent: that between the bores.
+    #[serde(default)]
+    angle_deg: Option<Degrees>,
+    /// Absent: the big end of the cylinder's rod.
+    #[serde(default)]
+    big_end_mass: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -347,6 +366,12 @@ impl EngineFile {
                 .map(|turns| turns[i])
                 .filter(|second| *second || engine.gas().is_none()),
             cylinder: (!shared).then_some(parts[i]),
+            link: engine.link_rods()[i].map(|link| LinkEntry {
+                master: link.master + 1,
+                radius: link.radius,
+                angle_deg: Some(Degrees::of(link.angle)),
+                big_end_mass: Some(link.big_end_mass),
+            }),
         };
         Ok(Self {
             schema: SCHEMA,
@@ -464,6 +489,9 @@ impl EngineFile {
             let parts = place.cylinder.or(self.cylinder);
             let details = parts.map_or_else(Details::default, |parts| parts.details());
             let big_end = || details.big_end(cylinder.rod_length());
+            // The big end of a link rod is at its knuckle.
+            let is_link = place.link.is_some();
+            let big_end = || if is_link { Ok(0.0) } else { big_end() };
             let rotating_mass = place.rotating_mass.map_or_else(big_end, Ok);
             let station = Station {
                 cylinder,
@@ -477,6 +505,29 @@ impl EngineFile {
         });
         let all: Vec<(Station, Details)> = all.collect::<Result<_>>()?;
         Ok(all.into_iter().unzip())
+    }
+
+    /// Link rods of cylinders that stand there.
+    fn link_rods(&self, stations: &[Station], details: &[Details]) -> Result<Vec<Option<LinkRod>>> {
+        let link = |(i, place): (usize, &StationEntry)| {
+            let Some(LinkEntry { master, radius, angle_deg, big_end_mass }) = &place.link else {
+                return Ok(None);
+            };
+            let at = format!("placements[{i}].link.");
+            let index = master.checked_sub(1).filter(|&index| index < stations.len());
+            let Some(master) = index else {
+                let hint = format!("give the number of a cylinder, 1 to {}", stations.len());
+                return Err(Error::value(format!("{at}master"), master, hint));
+            };
+            let angle = match angle_deg {
+                Some(angle) => angle.angle(&format!("{at}angle_deg"))?,
+                None => (stations[i].bank - stations[master].bank).reduced(),
+            };
+            let own = || details[i].big_end(stations[i].cylinder.rod_length());
+            let big_end_mass = big_end_mass.map_or_else(own, Ok)?;
+            Ok(Some(LinkRod { master, radius: *radius, angle, big_end_mass }))
+        };
+        self.placements.iter().enumerate().map(link).collect()
     }
 
     /// The bank of each cylinder, where banks are numbered.
@@ -499,6 +550,7 @@ impl EngineFile {
             return Err(Error::value("schema", self.schema, hint));
         }
         let (stations, details) = self.stations()?;
+        let link_rods = self.link_rods(&stations, &details)?;
         let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
         let (name, source) = (mem::take(&mut self.name), mem::take(&mut self.source));
         let engine = match self.bank_numbers(&stations)? {
@@ -516,6 +568,7 @@ impl EngineFile {
             .with_turns(turns.filter(|_| gas.is_none()).map(Iterator::collect))?
             .with_details(details)?
             .with_cranks(cranks, crank_of)?
+            .with_link_rods(link_rods)?
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
             .with_counterweights(self.counterweights)?

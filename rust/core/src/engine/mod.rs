@@ -11,6 +11,7 @@ pub mod file;
 mod firing_order;
 mod gas;
 pub mod layout;
+pub mod links;
 pub mod loads;
 mod name;
 pub mod periodic;
@@ -18,8 +19,6 @@ pub mod radial;
 pub mod several_cranks;
 mod shaft;
 pub mod warnings;
-
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -29,10 +28,10 @@ pub use self::chambers::SharedChamber;
 pub use self::faces::{CrankEnd, Face, FacePressure};
 pub use self::gas::Gas;
 use self::layout::Strokes;
+pub use self::links::{DeadCentres, LinkRod, LinkRods};
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
 pub use self::several_cranks::EngineOnCrank;
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
-use crate::mechanism::Mechanism;
 use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::rod::Rod;
 use crate::mechanism::spectrum::Spectrum;
@@ -159,6 +158,8 @@ pub struct Engine {
     turns: Option<Vec<bool>>,
     /// Of each cylinder.
     details: Vec<Details>,
+    /// Where the rod of each cylinder hangs, if it is a link rod.
+    link_rods: Vec<Option<LinkRod>>,
     /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
     mains: Vec<f64>,
     /// Reference plane of moments, where it is not the middle, m.
@@ -219,6 +220,7 @@ impl Engine {
             gas: None,
             turns: None,
             details: vec![Details::default(); count],
+            link_rods: vec![None; count],
             mains: Vec::new(),
             reference_z: None,
             kept: Kept::default(),
@@ -271,12 +273,6 @@ impl Engine {
     #[must_use]
     pub fn distinct_cylinder_of(&self, cylinder: usize) -> DistinctCylinderIndex {
         self.distinct_cylinder_of[cylinder]
-    }
-
-    /// How a cylinder's piston moves.
-    #[must_use]
-    pub fn mechanism(&self, cylinder: usize) -> Arc<dyn Mechanism> {
-        self.stations[cylinder].cylinder.mechanism()
     }
 
     /// Force given for every cylinder in place of that of its slider-crank.
@@ -398,6 +394,7 @@ impl Engine {
         for (i, (station, &pin)) in turned.stations.iter_mut().zip(pins).enumerate() {
             station.tdc = self.cranks[self.crank_of[i]].tdc(station.bank, pin);
         }
+        turned.check_link_rods()?;
         Ok(turned)
     }
 
@@ -497,14 +494,14 @@ impl Engine {
     /// piston in a turn of its own crank.
     #[must_use]
     pub fn mean_piston_speed(&self, rpm: f64) -> f64 {
-        self.mean_piston_speed_of(rpm, Cylinder::travel)
+        self.mean_piston_speed_of(rpm, |i| self.mechanism(i).travel())
     }
 
     /// The same with the travel of each cylinder's piston, m.
-    pub(crate) fn mean_piston_speed_of(&self, rpm: f64, travel: impl Fn(&Cylinder) -> f64) -> f64 {
+    pub(crate) fn mean_piston_speed_of(&self, rpm: f64, travel: impl Fn(usize) -> f64) -> f64 {
         let per_turn = |i: usize| {
             let ratio = self.cranks[self.crank_of[i]].ratio;
-            2.0 * travel(&self.stations[i].cylinder) * ratio.size()
+            2.0 * travel(i) * ratio.size()
         };
         (0..self.stations.len()).map(per_turn).fold(0.0, f64::max) * rpm / 60.0
     }
@@ -517,13 +514,19 @@ impl Engine {
 
     /// The same engine with this rod ratio of all cylinders.
     pub fn at_rod_ratio(&self, ratio: f64) -> Result<Self> {
+        self.check_no_link_rods("rod_ratio")?;
         let mut engine = self.clone();
         for Station { cylinder, .. } in &mut engine.stations {
             *cylinder = cylinder.at_rod_ratio(ratio)?;
         }
-        (engine.distinct_cylinders, engine.distinct_cylinder_of) =
-            distinct(engine.stations.iter().map(|station| station.cylinder));
+        engine.number_cylinders();
         Ok(engine)
+    }
+
+    /// Numbers its running gears that differ anew.
+    fn number_cylinders(&mut self) {
+        (self.distinct_cylinders, self.distinct_cylinder_of) =
+            distinct(self.stations.iter().map(|station| station.cylinder));
     }
 
     /// The same engine with its whole crank turned so that the first cylinder is at top dead
@@ -570,6 +573,7 @@ impl Engine {
         let crank_of = crank_of.into_iter().map(CrankIndex::new).collect();
         let engine = Self { cranks: List::new(cranks), crank_of, ..self.clone() };
         engine.check_throws_between(&engine.mains)?;
+        engine.check_link_rods()?;
         engine
             .with_counterweights(engine.counterweights.clone())?
             .with_loads(engine.loads.clone())?

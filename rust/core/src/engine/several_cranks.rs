@@ -2,7 +2,7 @@
 
 use super::banks::Hold;
 use super::shaft::check_rotation;
-use super::{Crank, CrankIndex, Engine, Shaft, Station, Unbalance};
+use super::{Crank, CrankIndex, Engine, LinkRod, Shaft, Station, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::ListIndex;
@@ -56,6 +56,7 @@ impl Engine {
         let (mut stations, mut banks, mut details) = (Vec::new(), Vec::new(), Vec::new());
         let (mut cranks, mut crank_of) = (Vec::new(), Vec::new());
         let (mut counterweights, mut shafts) = (Vec::new(), Vec::new());
+        let mut link_rods = Vec::new();
         for (k, part) in parts.iter().enumerate() {
             part.check(k, strokes == part.engine.strokes, hold)?;
             let [cylinders, bank, crank] =
@@ -78,6 +79,8 @@ impl Engine {
                 crank_of.push(own);
             }
             details.extend_from_slice(&engine.details);
+            let link = |link: LinkRod| LinkRod { master: link.master + cylinders, ..link };
+            link_rods.extend(engine.link_rods.iter().map(|own| own.map(link)));
             for weight in &engine.counterweights {
                 counterweights.push(part.counterweight(k, weight, [cylinders, crank], hold)?);
             }
@@ -89,6 +92,7 @@ impl Engine {
             .firing_as("", strokes)?
             .with_cranks(cranks, crank_of)?
             .with_details(details)?
+            .with_link_rods(link_rods)?
             .with_counterweights(counterweights)?
             .with_shafts(shafts)
     }
@@ -138,6 +142,11 @@ impl EngineOnCrank<'_> {
         }
         if !engine.mains.is_empty() {
             return fault("mains", "given", "leave them out; the whole engine takes main bearings");
+        }
+        if engine.has_link_rods() && !self.is_forward() && hold == Hold::Firing {
+            let hint = "hold the pins: where firing is held on a crank that turns the other way, crankpins are \
+                        mirrored, each at its own bore, and link rods leave that of their master";
+            return fault("link_rods", "given", hint);
         }
         let is_free = engine.counterweights.iter().any(|weight| weight.pin.is_none());
         if !self.is_forward() && hold == Hold::Firing && (is_free || !engine.shafts.is_empty()) {

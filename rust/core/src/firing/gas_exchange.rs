@@ -2,7 +2,6 @@
 
 use super::highest_points::{same, top_to_bottom};
 use super::schedule::Firing;
-use crate::engine::Station;
 use crate::layout::Strokes;
 use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::{Error, Result};
@@ -106,8 +105,8 @@ impl Firing {
             Strokes::Four => &["power", "exhaust", "intake", "compression"],
             Strokes::Two => &["power", "compression"],
         };
-        let period = |k: usize, (firing, station): (Angle, &Station)| {
-            let downwards = top_to_bottom(station);
+        let period = |k: usize, (i, firing): (usize, Angle)| {
+            let downwards = top_to_bottom(self.engine(), i);
             let before = Angle::whole_turns((k / 2) as i32);
             let (from, length) = if k.is_multiple_of(2) {
                 (before, downwards)
@@ -120,7 +119,7 @@ impl Firing {
             .iter()
             .enumerate()
             .map(|(k, &name)| {
-                let angles = self.highest().into_iter().zip(self.engine().stations());
+                let angles = self.highest().into_iter().enumerate();
                 (name, angles.map(|each| period(k, each)).collect())
             })
             .collect()
@@ -129,10 +128,8 @@ impl Firing {
     /// When intake valves or transfer ports, and exhausts are open.
     pub fn open(&self, timing: &Timing) -> Result<[Periods; 2]> {
         let mut found = [(); 2].map(|()| Vec::new());
-        for (i, (firing, place)) in
-            self.highest().into_iter().zip(self.engine().stations()).enumerate()
-        {
-            let (turn, downwards) = (Angle::TURN, top_to_bottom(place));
+        for (i, firing) in self.highest().into_iter().enumerate() {
+            let (turn, downwards) = (Angle::TURN, top_to_bottom(self.engine(), i));
             let [first, second] = match (*timing, self.strokes()) {
                 (Timing::Valves { intake, exhaust }, Strokes::Four) => {
                     let open = open_for("intake", i, intake, downwards)?;

@@ -1,7 +1,7 @@
 //! Turning points of pistons, and the angles that count as one.
 
 use super::schedule::firing;
-use crate::engine::{Engine, Station};
+use crate::engine::Engine;
 use crate::numbers::angle::{Angle, MOST_ROUNDING};
 use crate::numbers::error::Result;
 
@@ -38,7 +38,7 @@ pub(super) fn highest_points(engine: &Engine) -> Result<Vec<Angle>> {
 /// Angle after top dead centre at which a cylinder fires: where its piston is highest, or the chamber smallest that
 /// it shares.
 pub(super) fn fires_after_tdc(engine: &Engine, cylinder: usize) -> Angle {
-    let highest = || degrees(highest_after_tdc(&engine.stations()[cylinder]));
+    let highest = || degrees(highest_after_tdc(engine, cylinder));
     engine.chamber_delay(cylinder).unwrap_or_else(highest)
 }
 
@@ -46,7 +46,7 @@ pub(super) fn fires_after_tdc(engine: &Engine, cylinder: usize) -> Angle {
 pub(super) fn fires_after_first(engine: &Engine, cylinder: usize) -> Angle {
     let both = [cylinder, 0];
     if both.iter().all(|&i| engine.chamber_delay(i).is_none()) {
-        let [own, first] = both.map(|i| highest_after_tdc(&engine.stations()[i]));
+        let [own, first] = both.map(|i| highest_after_tdc(engine, i));
         return degrees(own - first);
     }
     let [own, first] = both.map(|i| fires_after_tdc(engine, i));
@@ -54,13 +54,13 @@ pub(super) fn fires_after_first(engine: &Engine, cylinder: usize) -> Angle {
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.
-pub(super) fn highest_after_tdc(station: &Station) -> f64 {
-    station.cylinder.turning_points_deg()[0]
+pub(super) fn highest_after_tdc(engine: &Engine, cylinder: usize) -> f64 {
+    engine.mechanism(cylinder).turning_points_deg()[0]
 }
 
-/// From a piston's highest to its lowest point: half a turn but for a pin offset.
-pub(super) fn top_to_bottom(station: &Station) -> Angle {
-    let [highest, lowest] = station.cylinder.turning_points_deg();
+/// From a piston's highest to its lowest point: half a turn but for a pin offset or a link rod.
+pub(super) fn top_to_bottom(engine: &Engine, cylinder: usize) -> Angle {
+    let [highest, lowest] = engine.mechanism(cylinder).turning_points_deg();
     Angle::HALF_TURN + degrees(lowest - 180.0 - highest)
 }
 

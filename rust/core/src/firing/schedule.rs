@@ -150,7 +150,7 @@ impl Firing {
     pub(super) fn highest(&self) -> Vec<Angle> {
         let highest = |(i, fires): (usize, Angle)| {
             let Some(delay) = self.engine.chamber_delay(i) else { return fires };
-            let past = degrees(highest_after_tdc(&self.engine.stations()[i]));
+            let past = degrees(highest_after_tdc(&self.engine, i));
             self.within(fires - delay + past)
         };
         self.angles().into_iter().enumerate().map(highest).collect()

@@ -27,6 +27,7 @@
 mod gas;
 pub(crate) mod given;
 pub(crate) mod kinematics;
+mod knuckle;
 mod piston;
 mod place;
 mod rod;

@@ -24,6 +24,8 @@ pub(crate) struct Place {
     pub axis: Complex64,
     /// Bank that it belongs to: that of a piston, or of a crankpin's piston.
     pub bank: Option<usize>,
+    /// Whether it acts at the knuckle of a link rod, which is not where its cylinder's own parts are.
+    pub at_knuckle: bool,
 }
 
 impl Place {
@@ -38,6 +40,7 @@ impl Place {
             ratio: SpeedRatio::ONE,
             axis: Complex64::default(),
             bank: None,
+            at_knuckle: false,
         }
     }
 
@@ -51,6 +54,11 @@ impl Place {
         let crank = engine.cranks()[engine.crank_of(cylinder)];
         let (phase, bank) = (engine.stations()[cylinder].tdc, Some(engine.bank_of(cylinder)));
         Self { phase, bank, ..self.on(crank) }
+    }
+
+    /// In another direction.
+    pub fn towards(self, direction: Angle) -> Self {
+        Self { direction, unit: direction.cis(1), ..self }
     }
 
     /// Along the bore of a cylinder.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::gas::GasPressure;
+use super::knuckle::KnuckleCoupling;
 use super::piston::PistonInertia;
 use super::rod::RodInertia;
 use super::spectrum::GivenForce;
@@ -11,9 +12,9 @@ use super::{
     GroupIndex, Load, LoadIndex, PhasorSum, Phasors, Place, SourceIndex, Term, Wanted, superpose,
 };
 use crate::Complex64;
+use crate::engine::links::KnuckleMass;
 use crate::engine::{Crank, Engine, Origin, Unbalance};
 use crate::mechanism::DrivenMechanism;
-use crate::mechanism::cylinder::Cylinder;
 use crate::numbers::error::Result;
 use crate::numbers::index::List;
 use crate::numbers::kept::Kept;
@@ -99,11 +100,7 @@ impl Scene {
         let (crank_radius, kept) = (engine.largest_crank_radius(), Kept::default());
         let mut loads = Self { list, sources, groups, group_of, reference, crank_radius, kept };
         let ratio = |i: usize| engine.cranks()[engine.crank_of(i)].ratio;
-        let mechanisms = engine.distinct_cylinders().map_to(Cylinder::mechanism);
-        let driven = |i: usize| {
-            let mechanism = Arc::clone(&mechanisms[engine.distinct_cylinder_of(i)]);
-            DrivenMechanism { mechanism, ratio: ratio(i) }
-        };
+        let driven = |i: usize| DrivenMechanism { mechanism: engine.mechanism(i), ratio: ratio(i) };
         let along_bore = |i: usize| Place::along_bore(engine, i);
         let cylinders = 0..engine.stations().len();
         for i in cylinders.clone() {
@@ -117,6 +114,9 @@ impl Scene {
             }
         }
         loads.push_unbalances(engine);
+        if engine.spectrum().is_none() {
+            loads.push_knuckles(engine, &driven);
+        }
         super::given::push(&mut loads, engine);
         if engine.spectrum().is_some() {
             // A spectrum does not determine a motion, against which pressure and rods would act.
@@ -161,6 +161,35 @@ impl Scene {
                     .on(Crank { axis: shaft.axis, ratio: shaft.ratio });
                 self.push_unbalance(place, unbalance.amount);
             }
+        }
+    }
+
+    /// Masses at the knuckles of link rods: an unbalance at the crankpin, what moves as the master's piston does,
+    /// along its bore turned by the knuckle's angle, and the torque of moving as both.
+    fn push_knuckles(&mut self, engine: &Engine, driven: &dyn Fn(usize) -> DrivenMechanism) {
+        for i in 0..engine.stations().len() {
+            let Some(KnuckleMass { master, mass, share, angle }) = engine.knuckle_mass(i) else {
+                continue;
+            };
+            let of_master = Place::along_bore(engine, master);
+            let place = |direction| Place {
+                origin: Origin::Cylinder(i),
+                at_knuckle: true,
+                bank: Some(engine.bank_of(i)),
+                ..of_master.towards(direction)
+            };
+            let turned = of_master.direction + angle;
+            let radius = engine.stations()[i].cylinder.crank_radius();
+            // 1 − k of the crankpin's motion, as two unbalances whose angles are those that were given.
+            self.push_unbalance(place(of_master.direction), mass * radius);
+            self.push_unbalance(place(turned), -(mass * radius * share));
+            let along = PistonInertia(driven(master));
+            let amounts = [mass * radius * share, mass * radius * radius * share * share];
+            self.push(place(turned), along, amounts[0], amounts[1]);
+            let is_forward = of_master.ratio.is_forward();
+            let angle = if is_forward { angle } else { -angle };
+            let coupling = KnuckleCoupling::new(driven(master), share, angle);
+            self.push(place(of_master.direction), coupling, 0.0, mass * radius * radius);
         }
     }
 

@@ -111,7 +111,11 @@ impl Cylinder {
         if ratio == self.rod_ratio() {
             return Ok(self);
         }
-        let rod_length = self.crank_radius / ratio;
+        self.with_rod_length(self.crank_radius / ratio)
+    }
+
+    /// The same masses with a rod of another length, m.
+    pub(crate) fn with_rod_length(self, rod_length: f64) -> Result<Self> {
         Self::new(self.crank_radius, rod_length, self.reciprocating_mass, self.pin_offset)?
             .with_rod_inertia_excess(self.rod_inertia_excess)
     }

@@ -1,10 +1,12 @@
 //! What exact sums know of a motion.
 
+use num_traits::CheckedDiv;
+
 use super::Mechanism;
 use super::harmonics::rod::TorqueHarmonics;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::rational::Ratio;
+use crate::numbers::rational::{Ratio, decimal};
 
 /// Figures on which a motion depends: equal where they are equal as typed, though quotients of doubles differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,6 +24,14 @@ pub(crate) enum FigureKey {
     Exact(Ratio),
     /// Bits of its double.
     Nearest(u64),
+}
+
+impl FigureKey {
+    /// Of two lengths as they were typed, else of the double.
+    pub(super) fn quotient(length: f64, radius: f64) -> Self {
+        let typed = || decimal(length)?.checked_div(&decimal(radius)?);
+        typed().map_or(Self::Nearest((length / radius).to_bits()), Self::Exact)
+    }
 }
 
 /// Which torque of a motion: those of equal motions and keys are multiples of one.

@@ -2,8 +2,9 @@
 //! their inertia.
 //!
 //! A piston moves as its [`Mechanism`] says, of which a [`Cylinder`] has one. Imports run downwards: [`motion`],
-//! [`cylinder`], [`exact`] → `Mechanism` → [`slider_crank`] → [`rod`], [`harmonics`], [`spectrum`].
+//! [`cylinder`], [`exact`] → `Mechanism` → [`articulated`], [`slider_crank`] → [`rod`], [`harmonics`], [`spectrum`].
 
+pub mod articulated;
 pub mod cylinder;
 pub mod exact;
 pub mod harmonics;
@@ -67,8 +68,8 @@ pub trait Mechanism: Debug + Send + Sync + Any {
         }
     }
 
-    /// How far above θ = 90° and −90° the motion is singular in the complex plane, radians.
-    fn singularities(&self) -> [f64; 2];
+    /// Distance of a crank angle from the nearest singularity of the motion in the complex plane, radians, or less.
+    fn to_singularity(&self, theta: f64) -> f64;
 
     /// Amplitudes of the force along the bore over m·r·ω².
     fn force(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>>;
@@ -99,6 +100,11 @@ pub trait Mechanism: Debug + Send + Sync + Any {
 
     /// The lengths that it was made of.
     fn lengths(&self) -> &Cylinder;
+
+    /// Whether rod ratio and pin offset make another of it.
+    fn has_proportions(&self) -> bool {
+        true
+    }
 
     /// The same with rod ratio, and pin offset (m), replaced.
     fn with_proportions(
@@ -134,6 +140,16 @@ pub trait Mechanism: Debug + Send + Sync + Any {
     fn grows_with_rod_ratio(&self, of: HarmonicsOf) -> bool {
         let _ = of;
         false
+    }
+
+    /// Crank angles at which the piston is highest and lowest, degrees.
+    fn turning_points_deg(&self) -> [f64; 2] {
+        self.lengths().turning_points_deg()
+    }
+
+    /// Distance between the ends of the piston's travel, m.
+    fn travel(&self) -> f64 {
+        self.lengths().travel()
     }
 
     /// The figures on which it depends.

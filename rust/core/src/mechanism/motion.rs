@@ -1,6 +1,7 @@
 //! Where a crank stands, and how what it drives moves there.
 
 use crate::Complex64;
+use crate::numbers::angle::cis_degrees;
 
 /// Where a crank stands, as far as nothing of the rod enters.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +29,12 @@ impl CrankPosition {
         let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
         let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
         Self { sin, cos, squared, to_above, to_below }
+    }
+
+    /// At an angle from the bore, degrees.
+    pub(crate) fn at_degrees(degrees: f64) -> Self {
+        let unit = cis_degrees(degrees);
+        Self::new(unit.im, unit.re)
     }
 
     /// Where an angle has this cosine and sine, turned by one of which `e^{iφ}` is this.

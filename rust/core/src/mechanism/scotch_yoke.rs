@@ -43,8 +43,8 @@ impl Mechanism for ScotchYoke {
         Swing { velocity: 0.0, acceleration: 0.0 }
     }
 
-    fn singularities(&self) -> [f64; 2] {
-        [f64::INFINITY; 2]
+    fn to_singularity(&self, _: f64) -> f64 {
+        f64::INFINITY
     }
 
     fn force(&self, orders: &[u32], _: &Cancel) -> Result<Vec<Complex64>> {

@@ -263,11 +263,18 @@ impl Mechanism for SliderCrank {
         );
     }
 
-    /// The rod would stand across the bore at sin θ = e/r ± l/r.
-    fn singularities(&self) -> [f64; 2] {
+    /// The rod would stand across the bore at sin θ = e/r ± l/r, above ±90°.
+    fn to_singularity(&self, theta: f64) -> f64 {
         let Proportions { above, below, .. } = self.proportions;
-        // acosh(1 + x) without loss of a small x.
-        [above.high, below.high].map(|beyond| (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p())
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let [above, below] = [(quarter, above), (-quarter, below)].map(|(at, beyond)| {
+            let turns = (theta - at) / std::f64::consts::TAU;
+            // acosh(1 + x) without loss of a small x.
+            let beyond = beyond.high;
+            let height = (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p();
+            ((turns - turns.round()) * std::f64::consts::TAU).hypot(height)
+        });
+        above.min(below)
     }
 
     fn force(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {

@@ -1,7 +1,9 @@
 //! Every mechanism keeps what [`Mechanism`] promises: what it says of orders is what its motion has.
 
+use super::articulated::{Knuckle, RunningGear};
 use super::motion::CrankColumns;
 use super::*;
+use crate::numbers::angle::Angle;
 use std::f64::consts::TAU;
 
 /// Samples of a turn; orders above half of them fold back.
@@ -166,7 +168,7 @@ fn check(mechanism: &dyn Mechanism) {
             );
         }
     }
-    assert!(mechanism.equals(mechanism) && mechanism.key().is_mirrored == (offset < 0.0));
+    assert!(mechanism.equals(mechanism));
 }
 
 #[test]
@@ -174,7 +176,34 @@ fn every_mechanism_of_the_house_keeps_its_promises() {
     for (rod_ratio, offset) in
         [(0.0, 0.0), (0.3, 0.0), (0.3, 0.2), (0.3, -0.2), (0.05, 1.0), (0.7, 1e-3), (0.7, 0.0)]
     {
-        check(&*with_ratios(rod_ratio, offset).unwrap());
+        let mechanism = with_ratios(rod_ratio, offset).unwrap();
+        check(&*mechanism);
+        assert_eq!(mechanism.key().is_mirrored, offset < 0.0);
+    }
+}
+
+#[test]
+fn link_rods_keep_the_promises_of_mechanisms() {
+    for ([radius, rod, offset], [ahead, knuckle]) in [
+        ([0.052, 0.178, 0.0], [72.0, 72.0]),
+        ([0.052, 0.178, 0.0], [-72.0, -72.0]),
+        ([0.038, 0.152, 0.0], [60.0, 67.0]),
+        ([0.038, 0.152, 0.01], [60.0, 67.0]),
+        ([0.038, 0.152, -0.01], [-60.0, -67.0]),
+        ([0.1, 0.3, 0.0], [144.0, 144.0]),
+        ([1e-6, 0.152, 0.0], [60.0, 67.0]),
+        ([0.052, 0.1, 0.0], [0.0, 180.0]),
+    ] {
+        let master = Cylinder::new(0.06, 0.23, 0.0, offset).unwrap();
+        let cylinder = Cylinder::new(0.06, rod, 0.0, 0.0).unwrap();
+        let [ahead, angle] = [ahead, knuckle].map(|degrees| Angle::from_degrees(degrees).unwrap());
+        let knuckle = Knuckle { master, radius, angle, ahead };
+        knuckle.check(&cylinder).unwrap();
+        let mechanism = RunningGear { cylinder, knuckle: Some(knuckle) }.mechanism();
+        check(&*mechanism);
+        assert_eq!(mechanism.key().is_mirrored, ahead < Angle::ZERO);
+        assert!(*mechanism == *mechanism.with_proportions(None, None).unwrap());
+        assert!(mechanism.with_proportions(Some(0.3), None).is_err());
     }
 }
 

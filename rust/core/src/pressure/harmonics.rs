@@ -125,29 +125,6 @@ struct PressurePanel<'a> {
     half: f64,
 }
 
-/// Motion of a piston, and where it is singular.
-struct PistonMotion<'a> {
-    mechanism: &'a dyn Mechanism,
-    /// Distances of the singularities above ±90° from the real axis.
-    heights: [f64; 2],
-}
-
-impl<'a> PistonMotion<'a> {
-    fn new(mechanism: &'a dyn Mechanism) -> Self {
-        Self { mechanism, heights: mechanism.singularities() }
-    }
-
-    /// Distance of a crank angle from the nearest singularity in the complex plane.
-    fn to_singularity(&self, theta: f64) -> f64 {
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let [above, below] = [quarter, -quarter].map(|at| {
-            let turns = (theta - at) / std::f64::consts::TAU;
-            (turns - turns.round()) * std::f64::consts::TAU
-        });
-        above.hypot(self.heights[0]).min(below.hypot(self.heights[1]))
-    }
-}
-
 impl Abscissae {
     /// Append some nodes of a panel: the first of these places and weights.
     #[inline(always)]
@@ -330,7 +307,7 @@ impl Cycle {
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
         let (mut mean, mut points) = (0.0, Abscissae::default());
-        let motion = PistonMotion::new(&**mechanism);
+        let motion = &**mechanism;
         let mut powers = Powers::default();
         let mut finish = |points: &mut Abscissae| -> Result<()> {
             mean += points.weighted.iter().sum::<f64>();
@@ -344,7 +321,7 @@ impl Cycle {
         };
         for panel in 0..self.panels.edges.len() - 1 {
             let points = &mut points;
-            self.nodes::<SQUARES>(panel, &motion, crankcase, highest, points, &mut finish)?;
+            self.nodes::<SQUARES>(panel, motion, crankcase, highest, points, &mut finish)?;
         }
         finish(&mut points)?;
         let mut phasors = memory::zeros(orders.len())?;
@@ -366,7 +343,7 @@ impl Cycle {
     fn nodes<const SQUARES: bool>(
         &self,
         panel: usize,
-        motion: &PistonMotion,
+        motion: &dyn Mechanism,
         crankcase: f64,
         highest: f64,
         points: &mut Abscissae,
@@ -402,7 +379,7 @@ impl Cycle {
                         points.add::<SQUARES>(
                             (&places, &weights, rule.len()),
                             &panel,
-                            motion.mechanism,
+                            motion,
                             crankcase,
                         );
                     }

@@ -104,6 +104,9 @@ pub struct DrawnCylinder {
     tdc_deg: f64,
     bank_deg: f64,
     z: f64,
+    /// Where its rod hangs, if it is a link rod.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    link: Option<DrawnLink>,
     /// Place of its piston's motion among those that differ.
     motion: usize,
     /// Place of its cycle among those that differ.
@@ -122,6 +125,16 @@ pub struct DrawnCrankEnd {
     cycle: usize,
     #[serde(flatten)]
     pressure: DrawnPressure,
+}
+
+/// A link rod's place on a master rod.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DrawnLink {
+    /// Index of the master's cylinder.
+    master: usize,
+    /// m.
+    radius: f64,
+    angle_deg: f64,
 }
 
 /// How pressure acts in a cylinder.
@@ -261,6 +274,11 @@ fn cylinders(engine: &Engine, motion_of: &[usize]) -> Vec<DrawnCylinder> {
             tdc_deg: station.tdc.degrees(),
             bank_deg: station.bank.degrees(),
             z: station.z,
+            link: engine.link_rods()[i].map(|link| DrawnLink {
+                master: link.master,
+                radius: link.radius,
+                angle_deg: link.angle.degrees(),
+            }),
             motion: motion_of[i],
             pressure: own.map(drawn_pressure),
             cycle: own.and_then(place),

@@ -11,7 +11,7 @@ use super::rows::{
 };
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::mechanism::cylinder::Cylinder;
+use crate::mechanism::articulated::RunningGear;
 use crate::motion::CrankPosition;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -140,9 +140,10 @@ pub struct MotionRows {
     turning: Vec<PageRow>,
 }
 
-/// Lengths of a cylinder, and whether pressure acts on its piston.
-fn kind(engine: &Engine, cylinder: usize) -> (Cylinder, bool) {
-    let lengths = engine.stations()[cylinder].cylinder.without_masses();
+/// Lengths of a cylinder and what its rod hangs on, and whether pressure acts on its piston.
+fn kind(engine: &Engine, cylinder: usize) -> (RunningGear, bool) {
+    let gear = engine.running_gear(cylinder);
+    let lengths = RunningGear { cylinder: gear.cylinder.without_masses(), ..gear };
     (lengths, engine.has_pressure(cylinder))
 }
 
@@ -224,7 +225,7 @@ fn motion_tables(
         rows.push((f64::from(n), power_of(n), values[..width].to_vec()));
     }
     rows.insert(0, (0.0, 0, [mean, 0.0, 0.0, 0.0][..width].to_vec()));
-    let turning = lengths.turning_points_deg();
+    let turning = mechanism.turning_points_deg();
     let ends = [turning.to_vec(), turning.map(height).to_vec()].into_iter().zip([0.0, 1.0]);
     let ends = ends.map(|(values, place)| (place, 0, values)).collect();
     Ok(vec![

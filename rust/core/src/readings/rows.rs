@@ -42,10 +42,11 @@ pub struct RodRatios {
 }
 
 impl RodRatios {
-    /// Those of an engine; none but its own where others would fire its chambers at other crank angles.
+    /// Those of an engine; none but its own where others would fire its chambers at other crank angles, or move
+    /// link rods elsewhere.
     #[must_use]
     pub fn reached(engine: &Engine) -> Option<Self> {
-        (!engine.rods_time_chambers()).then(|| Self::of(engine))
+        (!engine.rods_time_chambers() && !engine.has_link_rods()).then(|| Self::of(engine))
     }
 
     /// Those of an engine, whose own is among them.

@@ -80,7 +80,7 @@ pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
 }
 
 /// Fill the rows of a table in parallel, chunk by chunk.
-fn fill<T: Send>(
+pub(crate) fn fill<T: Send>(
     rows: usize,
     width: usize,
     out: &mut [T],

@@ -236,7 +236,7 @@ impl BearingLoadsModel {
     pub fn extremes(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Extremes> {
         let cycle = f64::from(cycle_deg);
         let rods = pool::map(cancel, self.rods.iter().collect(), |rod| {
-            let edges = edges(rod.edges_deg(), cycle, cancel)?;
+            let edges = edges(rod.edges_deg().into_iter(), cycle, cancel)?;
             let of = |theta, beside| of_rod(rod, theta, beside);
             let curves = LoadCurves { edges: &edges, of, cancel };
             let sampled = curves.sampled()?;
@@ -322,7 +322,7 @@ pub(super) fn below_zero(
     cycle: f64,
     cancel: &Cancel,
 ) -> Result<Vec<[f64; 2]>> {
-    let edges = edges(rod.edges_deg(), cycle, cancel)?;
+    let edges = edges(rod.edges_deg().into_iter(), cycle, cancel)?;
     // Less than rounding is none.
     let rounding = rounding_of(rod, &edges, cancel)?;
     let curves = LoadCurves { edges: &edges, of: |theta, beside| [of(theta, beside)], cancel };
@@ -387,7 +387,7 @@ pub(super) fn peaks<const N: usize>(
     cycle: f64,
     cancel: &Cancel,
 ) -> Result<[[Peak; 2]; N]> {
-    let edges = edges(rod.edges_deg(), cycle, cancel)?;
+    let edges = edges(rod.edges_deg().into_iter(), cycle, cancel)?;
     let rounding = rounding_of(rod, &edges, cancel)?;
     let curves = LoadCurves { edges: &edges, of, cancel };
     let tolerances = curves.sampled()?.map(|range| (LOAD_RESOLVED * largest(range)).max(rounding));

@@ -83,7 +83,8 @@ pub struct MainBearing {
 /// Loads of bearings and walls at given crank angles, N; vectors along x and y, fixed in the engine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingLoads {
-    /// Force of each rod on its crankpin: (`n_cylinders`, `n_theta`, 2).
+    /// Force of each rod on its crankpin, of a master rod with those of its links, of a link rod on its knuckle:
+    /// (`n_cylinders`, `n_theta`, 2).
     pub crankpin: Array3<f64>,
     /// Force of each rod on its wrist pin: (`n_cylinders`, `n_theta`, 2).
     pub wrist_pin: Array3<f64>,
@@ -274,12 +275,13 @@ impl BearingLoadsModel {
         places
     }
 
-    /// Share of each cylinder's crankpin load that each main bearing carries: (`n_mains`,
-    /// `n_cylinders`).
+    /// Share of each cylinder's crankpin load that each main bearing carries, none of a link rod's, which is in its
+    /// master's: (`n_mains`, `n_cylinders`).
     #[must_use]
     pub fn shares(&self) -> Array2<f64> {
         let mut shares = Array2::zeros((self.mains.len(), self.rods.len()));
-        for (i, rod) in self.rods.iter().enumerate() {
+        let rods = self.rods.iter().enumerate().filter(|(_, rod)| rod.is_on_crankpin());
+        for (i, rod) in rods {
             for (main, share) in self.levers(rod.crank, rod.z) {
                 shares[[main, i]] += share;
             }
@@ -315,7 +317,7 @@ impl BearingLoadsModel {
             for (range, units) in blocks_at(&blocks, rod.ratio) {
                 cancel.check()?;
                 columns.set_gas(rod, &theta_deg[range.clone()]);
-                columns.fill(rod, units);
+                columns.fill(rod, units, &theta_deg[range.clone()]);
                 rows.write(range, &columns);
             }
             Ok(())
@@ -383,7 +385,9 @@ impl BearingLoadsModel {
             let levers = self.levers(crank, z);
             levers.into_iter().find(|(j, _)| *j == main).map(|(_, share)| share)
         };
-        let rods = self.rods.iter().enumerate().filter(|(_, rod)| rod.crank == crank);
+        // What link rods exert is in the load of their master.
+        let rods = self.rods.iter().enumerate();
+        let rods = rods.filter(|(_, rod)| rod.crank == crank && rod.is_on_crankpin());
         let rods: Vec<_> = rods.filter_map(|(i, rod)| Some((share(rod.z)?, i))).collect();
         let shared = self.on_cranks[crank].iter().filter_map(|load| {
             let share = share(load.z)?;
@@ -395,7 +399,8 @@ impl BearingLoadsModel {
 
     /// What a crankpin carries: all of its rods.
     fn on_pin(&self, pin: &[usize]) -> Carried {
-        self.cancelling(pin.iter().map(|&i| (1.0, i)).collect(), &[], self.rods[pin[0]].crank)
+        let rods = pin.iter().filter(|&&i| self.rods[i].is_on_crankpin()).map(|&i| (1.0, i));
+        self.cancelling(rods.collect(), &[], self.rods[pin[0]].crank)
     }
 
     /// Shares of rods and what turns with their crank, of which what cancels leaves its rounding.

@@ -12,15 +12,21 @@
 //! - the wrist pin carries G + mₚ·a along u and −N along w.
 //!
 //! w is a quarter turn ahead of u in the sense in which the cylinder's own crank turns.
+//!
+//! A link rod exerts its force P, and its big end's mass there the force of its inertia, on the knuckle of the master
+//! rod, at k·l from the crankpin with k the complex share of [`Knuckle`]. They reach the crankpin, and their moment
+//! about it changes the master's N by −Im(k̄·(1 + i·tan φ)·P): the moments on a massless rod add up to nothing.
+//!
+//! [`Knuckle`]: crate::mechanism::articulated::Knuckle
 
 use std::sync::Arc;
 
 use crate::Complex64;
-use crate::engine::{CrankIndex, Engine, FacePressure};
+use crate::engine::{CrankIndex, Engine, FacePressure, LinkRod};
 use crate::load::Place;
 use crate::mechanism::Mechanism;
 use crate::mechanism::motion::{CrankPosition, Motion, MotionColumns};
-use crate::numbers::angle::cis_degrees;
+use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::error::Result;
 use crate::numbers::ratio::SpeedRatio;
 use crate::numbers::simd::vectorised;
@@ -55,6 +61,38 @@ pub(super) struct DrivenRod {
     couple: f64,
     /// Pressures on the faces of the piston.
     gas: Vec<FaceForce>,
+    /// Of a link rod.
+    hangs: Option<Hanging>,
+    /// Link rods that hang on this one, and the conjugate of their share k.
+    links: Vec<(Self, Complex64)>,
+}
+
+/// What of a link rod depends on its master.
+struct Hanging {
+    master: Arc<dyn Mechanism>,
+    /// `e^{iD}` of the own bore ahead of the master's, in the sense of the crank.
+    ahead: Complex64,
+    /// Share k of the wrist pin's motion in that of the knuckle.
+    share: Complex64,
+    /// m·r·ω² of the mass at the knuckle, N.
+    mass: f64,
+}
+
+impl Hanging {
+    /// Force of the inertia of the mass at the knuckle along the own bore and across it, of the piston of the
+    /// master that accelerates so.
+    #[inline(always)]
+    fn inertia(&self, crank: &CrankPosition, acceleration: f64) -> Complex64 {
+        let pin = Complex64::new(crank.cos, crank.sin) * (1.0 - self.share);
+        (pin - self.ahead.conj() * self.share * acceleration) * self.mass
+    }
+}
+
+/// What link rods exert on a master rod: force, along u and w, and the change of N.
+#[derive(Clone, Copy, Default)]
+struct OfLinks {
+    force: Complex64,
+    across: f64,
 }
 
 /// Pressure on a face of a piston.
@@ -98,18 +136,43 @@ impl FaceForce {
 impl DrivenRod {
     /// m·r·ω² of all masses, N: less than the force on the crankpin at a top dead centre.
     pub fn size(&self) -> f64 {
-        self.reciprocating + self.rotating
+        let at_knuckle = self.hangs.as_ref().map_or(0.0, |hangs| hangs.mass);
+        let links = self.links.iter().map(|(link, _)| link.size());
+        self.reciprocating + self.rotating + at_knuckle + links.sum::<f64>()
+    }
+
+    /// Whether it is on its crankpin itself, and not a link rod.
+    pub fn is_on_crankpin(&self) -> bool {
+        self.hangs.is_none()
     }
 
     /// Of a cylinder of an engine, at a square of angular speed of the main crank.
     pub fn new(engine: &Engine, cylinder: usize, square: f64) -> Result<Self> {
+        let square_of_main = square;
         let (i, details) = (cylinder, &engine.details()[cylinder]);
         let (cylinder, place) = (&engine.stations()[i].cylinder, Place::along_bore(engine, i));
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
-        let rotating = details.big_end(length)? * radius;
+        let is_link = engine.link_rods()[i].is_some();
+        let rotating = if is_link { 0.0 } else { details.big_end(length)? * radius };
         let piston = details.piston_mass.map_or(cylinder.mass_radius(), |mass| mass * radius);
         let square = square * place.speed_squared();
         let ahead = Complex64::new(0.0, f64::from(place.ratio.sense()));
+        let ratio = place.ratio;
+        let share = |link: usize| {
+            engine.link_rods()[link].map(|LinkRod { master, radius, angle, .. }| {
+                let length = engine.stations()[master].cylinder.rod_length();
+                seen(angle, ratio) * (radius / length)
+            })
+        };
+        let hangs = engine.link_rods()[i].zip(share(i)).map(|(link, share)| Hanging {
+            master: engine.mechanism(link.master),
+            ahead: seen(engine.stations()[i].bank - engine.stations()[link.master].bank, ratio),
+            share,
+            mass: link.big_end_mass * radius * square,
+        });
+        let link = |k: usize| Some((Self::new(engine, k, square_of_main), share(k)?.conj()));
+        let links = engine.links_of(i).filter_map(link);
+        let links = links.map(|(rod, share)| Ok((rod?, share))).collect::<Result<_>>()?;
         Ok(Self {
             mechanism: engine.mechanism(i),
             crank: engine.crank_of(i),
@@ -122,6 +185,8 @@ impl DrivenRod {
             rotating: rotating * square,
             couple: cylinder.rod_inertia_excess() * square / length,
             gas: engine.pressures(i).into_iter().map(FaceForce::of).collect(),
+            hangs,
+            links,
         })
     }
 
@@ -132,7 +197,24 @@ impl DrivenRod {
         let crank = CrankPosition::new(unit.im, unit.re);
         let Motion { acceleration, slope, secant, .. } = self.mechanism.motion(&crank);
         let swing = self.mechanism.swing(&crank).acceleration;
-        self.forces(&crank, &[acceleration, slope, secant, swing], gas)
+        let mut links = OfLinks::default();
+        for (link, share) in &self.links {
+            let force = link.on_crankpin(&link.forces_beside(theta_deg, at));
+            links.add(self.along_axes(force), *share, slope);
+        }
+        let at_knuckle = self.hangs.as_ref().map_or(Complex64::ZERO, |hangs| {
+            let of_master = unit * hangs.ahead;
+            let of_master = CrankPosition::new(of_master.im, of_master.re);
+            hangs.inertia(&crank, hangs.master.motion(&of_master).acceleration)
+        });
+        self.forces(&crank, &[acceleration, slope, secant, swing], gas, (links, at_knuckle))
+    }
+
+    /// A vector x + iy along u and w.
+    #[inline(always)]
+    fn along_axes(&self, vector: Complex64) -> Complex64 {
+        let [u, w] = self.axes.map(|axis| (axis.conj() * vector).re);
+        Complex64::new(u, w)
     }
 
     /// A vector along u and w, x + iy.
@@ -153,14 +235,17 @@ impl DrivenRod {
 
     /// Crank angles at which its pressure may jump or bend, and those at which the rod leans most, where
     /// loads of one hardly longer than the crank have narrow peaks, degrees.
-    pub fn edges_deg(&self) -> impl Iterator<Item = f64> {
+    pub fn edges_deg(&self) -> Vec<f64> {
         let (tdc, speed) = (-self.phase.arg().to_degrees(), self.ratio.size());
         let quarter = move |k: u32| (tdc + 90.0 + 180.0 * f64::from(k)) / speed;
         // In two turns of the main crank.
         let leaning = (0..2 * self.ratio.halves_of_speed()).map(quarter);
         let gas = self.gas.iter();
+        let links = self.links.iter().flat_map(|(link, _)| link.edges_deg());
         gas.flat_map(|gas| gas.pressure.cycle.edges_deg().iter().map(|edge| edge + gas.phase))
             .chain(leaning)
+            .chain(links)
+            .collect()
     }
 
     /// Size of what forces are sums and differences of, by the largest force on the crankpin, N.
@@ -168,7 +253,8 @@ impl DrivenRod {
         let size = |FaceForce { pressure, .. }: &FaceForce| {
             pressure.area.abs() * (pressure.crankcase + pressure.cycle.largest())
         };
-        self.size() + on_crankpin + self.gas.iter().map(size).sum::<f64>()
+        let links = self.links.iter().map(|(link, _)| link.terms(0.0)).sum::<f64>();
+        self.size() + on_crankpin + self.gas.iter().map(size).sum::<f64>() + links
     }
 
     /// At an acceleration of the piston, slope and secant of its rod, and an acceleration of the rod's angle.
@@ -178,17 +264,20 @@ impl DrivenRod {
         crank: &CrankPosition,
         &[acceleration, slope, secant, swing]: &[f64; 4],
         gas: f64,
+        (links, at_knuckle): (OfLinks, Complex64),
     ) -> RodForces {
         let towards_crank = gas + self.reciprocating * acceleration;
         let mut across = slope * towards_crank;
         if self.couple != 0.0 {
             across -= self.couple * secant * swing;
         }
+        across += links.across;
+        let besides = links.force + at_knuckle;
         let on_wrist_pin = gas + self.piston * acceleration;
         RodForces {
             crankpin: [
-                self.rotating * crank.cos - towards_crank,
-                self.rotating * crank.sin + across,
+                self.rotating * crank.cos - towards_crank + besides.re,
+                self.rotating * crank.sin + across + besides.im,
             ],
             wrist_pin: [on_wrist_pin, -across],
             across,
@@ -208,11 +297,24 @@ impl DrivenRod {
                 Complex64::new(1.0, -slope) / secant
             }
         };
-        let [u, w] = self.axes.map(|axis| (axis.conj() * vector).re);
         // Adding zero makes −0 0.
-        let seen = Complex64::new(u, w) * along.conj() + Complex64::default();
+        let seen = self.along_axes(vector) * along.conj() + Complex64::default();
         [seen.re, seen.im]
     }
+}
+
+impl OfLinks {
+    /// Adds a force on a knuckle, along u and w, of a rod whose lean has this tangent.
+    #[inline(always)]
+    fn add(&mut self, force: Complex64, share_conj: Complex64, slope: f64) {
+        self.force += force;
+        self.across -= (share_conj * Complex64::new(1.0, slope) * force).im;
+    }
+}
+
+/// `e^{iφ}` of an angle, in the sense of a crank.
+fn seen(angle: Angle, ratio: SpeedRatio) -> Complex64 {
+    angle.cis(i64::from(ratio.sense()))
 }
 
 impl RodColumns {
@@ -234,8 +336,8 @@ impl RodColumns {
         }
     }
 
-    /// Overwrite all but the gas, which is read.
-    pub fn fill(&mut self, rod: &DrivenRod, units: &Units) {
+    /// Overwrite all but the gas, which is read; that of link rods is evaluated at these crank angles, degrees.
+    pub fn fill(&mut self, rod: &DrivenRod, units: &Units, theta_deg: &[f64]) {
         let [mut velocity, mut acceleration, mut slope, mut secant, mut swing] = [[0.0; BLOCK]; 5];
         let cranks = units.cranks(rod.phase);
         if rod.couple != 0.0 {
@@ -245,17 +347,45 @@ impl RodColumns {
         motion.lean = Some([&mut slope, &mut secant]);
         rod.mechanism.motions(&cranks, motion);
         let motions = [&acceleration, &slope, &secant, &swing];
+        let mut links = Vec::new();
+        for (link, share) in &rod.links {
+            let mut columns = Box::new(Self::ZERO);
+            columns.set_gas(link, theta_deg);
+            columns.fill(link, units, theta_deg);
+            links.push((columns, *share));
+        }
+        let mut of_master = [0.0; BLOCK];
+        if let Some(hangs) = rod.hangs.as_ref().filter(|hangs| hangs.mass != 0.0) {
+            let cranks = units.cranks(rod.phase * hangs.ahead);
+            hangs.master.motions(&cranks, MotionColumns::of(&mut of_master));
+        }
         vectorised(
             #[inline(always)]
-            || self.add(rod, units, motions),
+            || self.add(rod, units, motions, (&links, &of_master)),
         );
     }
 
     #[inline(always)]
-    fn add(&mut self, rod: &DrivenRod, units: &Units, motions: [&AngleColumn; 4]) {
+    fn add(
+        &mut self,
+        rod: &DrivenRod,
+        units: &Units,
+        motions: [&AngleColumn; 4],
+        (links, of_master): (&[(Box<Self>, Complex64)], &AngleColumn),
+    ) {
         for k in 0..BLOCK {
             let motion = motions.map(|column| column[k]);
-            let forces = rod.forces(&units.crank(rod.phase, k), &motion, self.gas[k]);
+            let crank = units.crank(rod.phase, k);
+            let mut of_links = OfLinks::default();
+            for (columns, share) in links {
+                let [x, y] = &columns.crankpin;
+                let force = rod.along_axes(Complex64::new(x[k], y[k]));
+                of_links.add(force, *share, motion[1]);
+            }
+            let hangs = rod.hangs.as_ref();
+            let at_knuckle =
+                hangs.map_or(Complex64::ZERO, |hangs| hangs.inertia(&crank, of_master[k]));
+            let forces = rod.forces(&crank, &motion, self.gas[k], (of_links, at_knuckle));
             let pairs =
                 [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
             for ([x, y], vector) in pairs {

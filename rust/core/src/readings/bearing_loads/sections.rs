@@ -50,7 +50,7 @@ impl BearingLoadsModel {
             cancel.check()?;
             let mut sum = shear.index_axis_mut(Axis(0), at(rod.z));
             if part != CutPart::Crankcase {
-                if is_cut(rod.crank) {
+                if is_cut(rod.crank) && rod.is_on_crankpin() {
                     sum += &loads.crankpin.index_axis(Axis(0), i);
                 }
                 continue;

@@ -109,7 +109,8 @@ impl Stars {
         let sizes = |&(i, size, cycle, delay): &(usize, _, _, _)| {
             let gear = &engine.stations()[i].cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
-            (sizes, size, cycle, delay, ratio(i).halves().abs())
+            let linked = engine.running_gear(i).knuckle;
+            (sizes, linked, size, cycle, delay, ratio(i).halves().abs())
         };
         let (_, groups) = distinct::<usize, _>(faces.iter().map(sizes));
         let mirrored =

@@ -324,7 +324,7 @@ impl Proof {
             Gear(gear, is_odd) => {
                 let (gear, speed) = self.gears[gear];
                 let weights =
-                    gear.torque_weights().into_iter().filter(|(_, weight)| *weight != 0.0);
+                    gear.cylinder.torque_weights().into_iter().filter(|(_, weight)| *weight != 0.0);
                 ((gear.mechanism(), order.halves() / speed), Some(weights.collect()), is_odd)
             }
         };
@@ -390,7 +390,7 @@ impl Proof {
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
             );
         }
-        if found.is_empty() && self.gears.iter().any(|(gear, _)| gear.has_rod_inertia()) {
+        if found.is_empty() && self.gears.iter().any(|(gear, _)| gear.cylinder.has_rod_inertia()) {
             found.push("rod inertia: its torque nearly cancels that of the masses".to_owned());
         }
         found
@@ -403,7 +403,7 @@ impl Proof {
         let mut turned = directions.filter(|(load, _)| load.is_turning());
         let mut speeds = self.motions.iter().map(|motion| motion.speed);
         let has_speeds = speeds.next().is_some_and(|first| speeds.any(|speed| speed != first));
-        let mut inertias = self.gears.iter().map(|(gear, _)| gear.rod_inertia_excess());
+        let mut inertias = self.gears.iter().map(|(gear, _)| gear.cylinder.rod_inertia_excess());
         let first = inertias.next();
         let is_piston = |load: &&Load| load.parts.force == Some(ForcePart::Along);
         let beside = |load: &Load| load.place.axis != Complex64::default();

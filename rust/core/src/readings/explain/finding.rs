@@ -120,7 +120,7 @@ pub enum Finding {
         /// Its largest orders of force and of torque on block or crank; none without a speed, at which they are.
         largest: Option<[Option<LargestOrder>; 2]>,
     },
-    /// Rows of a radial, whose articulated rods are not modelled.
+    /// Rows of a radial without link rods.
     Articulated {
         /// Cylinders on one crankpin.
         rows: Vec<Vec<usize>>,

@@ -229,12 +229,15 @@ fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<
 
 /// The bob weight that removes what turns with a crank: half of the pistons'.
 fn bob_weights(engine: &Engine) -> Option<Finding> {
-    let is_of_crank_alone = |gear: &crate::Cylinder| !gear.mechanism().exact_force(1).rest.exists();
+    let is_of_crank_alone = |i: usize| !engine.mechanism(i).exact_force(1).rest.exists();
     let is_of_crank = |ratio: SpeedRatio| engine.cranks().iter().any(|crank| crank.ratio == ratio);
+    // The big ends of link rods turn with the crank too.
+    let has_knuckles = (0..engine.stations().len()).any(|i| engine.knuckle_mass(i).is_some());
     // Other cranks have their first order elsewhere.
     let fast = engine.cranks().iter().any(|crank| !crank.ratio.is_crank_speed());
-    if !engine.distinct_cylinders().iter().all(is_of_crank_alone)
+    if !(0..engine.stations().len()).all(is_of_crank_alone)
         || fast
+        || has_knuckles
         || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio))
     {
         return None;
@@ -329,10 +332,13 @@ fn given_loads(engine: &Engine, rpm: Option<f64>, cancel: &Cancel) -> Result<Vec
     Ok(names.into_iter().map(of_name).collect())
 }
 
-/// The rows of a radial, whose articulated rods are not modelled.
+/// The rows of a radial whose rods are all on the crankpin; none where some are link rods.
 fn shared_pins(engine: &Engine) -> Option<Finding> {
     /// Parts of a degree that pins at one place differ by less than.
     const SAME_PIN: f64 = 1e6;
+    if engine.has_link_rods() {
+        return None;
+    }
     let mut pins: Vec<((f64, f64, CrankIndex), Vec<usize>)> = Vec::new();
     for (i, station) in engine.stations().iter().enumerate() {
         let pin = (engine.pin(i).degrees() * SAME_PIN).round_ties_even();

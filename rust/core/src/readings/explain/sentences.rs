@@ -190,8 +190,8 @@ impl Explanation {
             Finding::GasOrders { orders, firing, even } => self.gas_orders(orders, firing, *even),
             Finding::GivenLoad { name, largest } => given_load(name, largest.as_ref(), wording),
             Finding::Articulated { rows } => format!(
-                "{} rods share a crankpin: each rod is computed on the crankpin itself; a master rod \
-                 with articulated rods, which moves its pistons differently, is not modelled",
+                "{} rods share a crankpin: each rod is computed on the crankpin itself; link rods on a \
+                 master rod, which this engine does not have, move their pistons differently",
                 number(rows[0].len())
             ),
         }
@@ -421,7 +421,8 @@ impl Explanation {
         let figures = |&cylinder: &usize| {
             let gear = &self.engine.stations()[cylinder].cylinder;
             let bore = self.engine.details()[cylinder].bore;
-            (gear.crank_radius(), gear.rod_length(), gear.pin_offset(), bore)
+            let linked = self.engine.running_gear(cylinder).knuckle;
+            (gear.crank_radius(), gear.rod_length(), gear.pin_offset(), bore, linked)
         };
         let is_first = |cylinder| figures(cylinder) == figures(&firing[0]);
         let unlike = if !firing.iter().all(is_first) {

@@ -205,10 +205,11 @@ impl<'a> VectorSums<'a> {
     fn pull_together(&self, k: usize) -> bool {
         let pulls: Vec<Complex64> = (0..self.cylinders.len()).map(|i| self.pull(k, i)).collect();
         let sizes = || pulls.iter().map(|pull| pull.norm());
-        let largest = sizes().fold(0.0, f64::max);
+        let (smallest, largest) = sizes()
+            .fold((f64::INFINITY, 0.0_f64), |(low, high), size| (low.min(size), high.max(size)));
         let together = pulls.iter().sum::<Complex64>().norm();
         pulls.len() > 1
-            && largest > 0.0
+            && smallest > 0.0
             && (sizes().sum::<f64>() - together).abs() <= EQUAL_PHASORS * largest
     }
 

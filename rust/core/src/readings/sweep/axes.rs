@@ -77,7 +77,10 @@ impl SweepAxes {
                 let hint = "a spectrum replaces the slider-crank: leave out one of the two";
                 return Err(Error::value(name, "swept together with a spectrum", hint));
             }
-            engines.iter().try_for_each(|engine| engine.check_chambers_keep(name))?;
+            for engine in engines {
+                engine.check_no_link_rods(name)?;
+                engine.check_chambers_keep(name)?;
+            }
         }
         Ok(())
     }

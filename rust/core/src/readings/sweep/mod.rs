@@ -200,7 +200,11 @@ impl Sweep {
         let rpm = self.axes.rpm.iter().copied().fold(0.0, f64::max);
         let [ratio, offset] = self.extremes;
         // Shorter rods and larger offsets make the travel longer.
-        let travel = |cylinder: &Cylinder| {
+        let travel = |engine: &Engine, i: usize| {
+            let cylinder = &engine.stations()[i].cylinder;
+            if ratio.is_none() && offset.is_none() {
+                return engine.mechanism(i).travel();
+            }
             let radius = cylinder.crank_radius();
             let rod = match ratio {
                 None => cylinder.rod_length(),
@@ -210,7 +214,8 @@ impl Sweep {
             let swept = Cylinder::new(radius, rod, 0.0, offset);
             swept.map_or(2.0 * radius, |swept| swept.travel())
         };
-        let speeds = self.engines.iter().map(|engine| engine.mean_piston_speed_of(rpm, travel));
+        let speeds = self.engines.iter();
+        let speeds = speeds.map(|engine| engine.mean_piston_speed_of(rpm, |i| travel(engine, i)));
         speeds.fold(0.0, f64::max)
     }
 

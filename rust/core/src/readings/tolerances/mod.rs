@@ -360,6 +360,11 @@ fn check_reach(
 ) -> Result<()> {
     let deviation = |figure: Parameter, k: usize| spreads[figure as usize].get(k).copied();
     let name = Parameter::name;
+    for figure in [Parameter::CrankRadius, Parameter::RodLength] {
+        if !spreads[figure as usize].is_empty() {
+            engine.check_no_link_rods(name(figure))?;
+        }
+    }
     for (i, place) in engine.stations().iter().enumerate() {
         let (cylinder, number) = (place.cylinder, i + 1);
         let mass = deviation(Parameter::ReciprocatingMass, i).unwrap_or(0.0);

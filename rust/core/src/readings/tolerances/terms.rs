@@ -76,7 +76,9 @@ impl Terms {
         let deviating = |load: &Load| {
             let origin = load.place.origin;
             let pin = pin_of[laden.cylinder_with(origin)?];
-            Some(Deviating { pin, cylinder: origin.cylinder() })
+            // The mass at a knuckle is none of its cylinder's figures.
+            let cylinder = origin.cylinder().filter(|_| !load.place.at_knuckle);
+            Some(Deviating { pin, cylinder })
         };
         loads.list.retain(|load| deviating(load).is_some());
         Ok(Self {
@@ -261,7 +263,8 @@ impl DrawnFigures {
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], terms.count(figure), first));
         let nominal = |source: &Arc<dyn Source>| {
-            let lengths = source.mechanism().map(|of| of.mechanism.lengths());
+            let varies = source.mechanism().filter(|of| of.mechanism.has_proportions());
+            let lengths = varies.map(|of| of.mechanism.lengths());
             let point = lengths.map(|of| proportions(of, (of.crank_radius(), of.rod_length())));
             terms.amplitudes(source, &[point.unwrap_or_default()], orders, cancel)
         };

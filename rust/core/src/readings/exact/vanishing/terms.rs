@@ -8,8 +8,8 @@ use super::super::{ExactLoads, ExactMotion, Levers, MotionIndex, too_long};
 use super::ProofQuantity;
 use crate::engine::Engine;
 use crate::load::{self, Harmonic, Load, LoadIndex, Scene, SourceIndex, Wanted, superpose};
-use crate::mechanism::cylinder::Cylinder;
-use crate::mechanism::exact::TorqueKey;
+use crate::mechanism::articulated::RunningGear;
+use crate::mechanism::exact::{Rest, TorqueKey};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::index::{List, distinct, list_index};
@@ -108,7 +108,7 @@ pub(super) struct Proof {
     /// For each motion the first of its size but for the sign of the offset.
     mirrored: List<MotionIndex, MotionIndex>,
     /// Running gears that differ, each with the speed of its crank, whichever its sense.
-    pub gears: List<DrivenCylinderIndex, (Cylinder, u32)>,
+    pub gears: List<DrivenCylinderIndex, (RunningGear, u32)>,
     /// Running gear of each load of a cylinder, and the first of its size but for the sign of the offset.
     distinct_cylinder_of: List<LoadIndex, Option<[DrivenCylinderIndex; 2]>>,
 }
@@ -149,22 +149,24 @@ impl Proof {
         let mirrored = motions.first_equal(|motion| (motion.key.figures.clone(), motion.speed));
         let driven = |i: usize| {
             let crank = engine.cranks()[engine.crank_of(i)];
-            (
-                engine.distinct_cylinders()[engine.distinct_cylinder_of(i)],
-                crank.ratio.halves_of_speed(),
-            )
+            (engine.running_gear(i), crank.ratio.halves_of_speed())
         };
         let (gears, of_cylinder) =
             distinct::<DrivenCylinderIndex, _>((0..engine.stations().len()).map(driven));
         let first_of_size = gears.first_equal(|(gear, speed)| {
+            let (linked, gear) =
+                (gear.knuckle.map(|_| gear.mechanism().key().figures), gear.cylinder);
             let inertia = gear.rod_inertia_excess();
             let offset = gear.pin_offset().abs();
             let mass = gear.reciprocating_mass();
-            ([gear.crank_radius(), gear.rod_length(), offset, mass, inertia], *speed)
+            let sizes = [gear.crank_radius(), gear.rod_length(), offset, mass, inertia];
+            (sizes, linked, *speed)
         });
         let of_size = |i: usize| [of_cylinder[i], first_of_size[of_cylinder[i]]];
-        let distinct_cylinder_of =
-            loads.list.map_to(|load| load.place.origin.cylinder().map(of_size));
+        let distinct_cylinder_of = loads.list.map_to(|load| {
+            let own = load.place.origin.cylinder().filter(|_| !load.place.at_knuckle);
+            own.map(of_size)
+        });
         Ok(Self {
             roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
@@ -202,7 +204,7 @@ impl Proof {
         use Channel::{Force, One};
         let (of, mirrored) = (&self.motions[motion], self.mirrored[motion]);
         let known = of.mechanism.exact_force(of.own_order(order));
-        if known.rest.exists() && !view.parts {
+        if known.rest == Rest::Both || known.rest.exists() && !view.parts {
             return vec![(Force(motion), 1)];
         }
         let [whole, rest] = [(One, 1), (Force(mirrored), 1)];

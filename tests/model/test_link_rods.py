@@ -1,0 +1,281 @@
+"""Link rods: figures, loops of rods derived anew, the surface, and what rejects them."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import InputError
+from rederivation import link_rods as anew
+
+ONE_RADIAN = 60.0 / (2.0 * np.pi)
+"""rpm at which ω is 1."""
+
+
+def radial(**rods: object) -> cp.Engine:
+    """Return five cylinders on a master rod, with pistons of 1 kg."""
+    given = {"radius": 0.052, "length": 0.178} | rods
+    return cp.Engine.radial(cp.Cylinder(0.06, 0.23, 1.0), 5, rods=cp.LinkRods(**given))  # type: ignore[arg-type]
+
+
+def star(ahead: float = 0.0) -> anew.Star:
+    angles = tuple(72.0 * k for k in range(1, 5))
+    return anew.Star(0.06, 0.23, 0.052, 0.178, angles, tuple(angle + ahead for angle in angles))
+
+
+def turning(engine: cp.Engine, order: int, scale: float = 0.06) -> tuple[float, float]:
+    """Return the sizes of forward and backward force over m·r·ω²."""
+    force = engine.balance(ONE_RADIAN, orders=[order])[order].force
+    return float(abs(force.forward)) / scale, float(abs(force.backward)) / scale
+
+
+# P60 to P69: Chapter "articulated rods" of the reference; each from loops of rods and 25 digits.
+@pytest.mark.parametrize(
+    ("order", "side", "value"),
+    [(1, 0, 2.5), (2, 0, 0.39958519), (2, 1, 0.00026759569), (4, 1, 0.026812432)],
+)
+def test_figures_of_a_star(order: int, side: int, value: float) -> None:
+    assert turning(radial(), order)[side] == pytest.approx(value, rel=1e-7)
+
+
+def test_figures_of_strokes_and_leading_terms() -> None:
+    assert cp.dead_centres(radial()).stroke.max() / 0.12 == pytest.approx(1.0042384, rel=1e-7)
+    assert pytest.approx(0.38104543, rel=1e-7) == 5 * (60 / 178) * (52 / 230)
+    alike = cp.Engine.radial(cp.Cylinder(0.06, 0.23, 1.0), 5)
+    assert turning(alike, 4)[1] == pytest.approx(0.011691518, rel=1e-7)
+    assert turning(alike, 2) == (0.0, 0.0)
+
+
+def test_figures_of_big_ends_and_the_mass_that_makes_the_star_whole() -> None:
+    cylinders = [cp.Cylinder(0.06, 0.23, 0.0)] * 5
+    rods = cp.LinkRods(0.052, 0.178, big_end_mass=1.0)
+    forward, backward = turning(cp.Engine.radial(cylinders, 5, rods=rods), 1)
+    assert backward == pytest.approx(0.11304348, rel=1e-7)
+    assert forward == pytest.approx(4.1130435, rel=1e-7)
+    cylinders[0] = cylinders[0].replace(reciprocating_mass=52 / 230)
+    assert turning(cp.Engine.radial(cylinders, 5, rods=rods), 1)[1] < 1e-14
+
+
+# P70 to P72: Khurmi 22.14, printed 11.1 and 3.70 kN.
+def test_three_cylinder_compressor() -> None:
+    three = cp.Engine.radial(cp.Cylinder(0.05, 0.15, 1.5), 3)
+    force = three.balance(3000, orders=[1, 2])
+    assert force[1].force.peak == pytest.approx(11103.305, rel=1e-7)
+    assert force[2].force.peak == pytest.approx(3809.6392, rel=1e-7)
+    omega = 2 * np.pi * 50
+    assert 1.5 * 1.5 * 0.05 * omega**2 / 3 == pytest.approx(3701.1017, rel=1e-7)
+
+
+def twin(bank: float, knuckle: float) -> cp.Engine:
+    return cp.Engine.vee(
+        cp.Cylinder(0.048, 0.19, 1.0), bank_angle_deg=bank, throws_deg=[0], spacing=0.1,
+        rods=cp.LinkRods(0.038, 0.152, angles_deg=[knuckle]), master="right",
+    )  # fmt: skip
+
+
+# P73 to P75: longest force over m·r·ω².
+def test_figures_of_a_twin() -> None:
+    b = twin(45, 45).balance(ONE_RADIAN, orders=[1, 2, 3])
+    longest = [abs(b[n].force.forward) + abs(b[n].force.backward) for n in (1, 2, 3)]
+    assert longest[0] / 0.048 == pytest.approx(1.7071068, rel=1e-7)
+    assert longest[1] / 0.048 == pytest.approx(0.3014848, rel=1e-7)
+    assert longest[2] == 0.0
+
+
+@pytest.mark.parametrize("ahead", [0.0, 6.0, 1e-7])
+def test_forces_and_roll_are_those_of_the_loops(ahead: float) -> None:
+    masses, big_ends = (1.1, 0.9, 0.9, 0.9, 0.9), (0.3,) * 4
+    cylinders = [cp.Cylinder(0.06, 0.23, mass) for mass in masses]
+    angles = [72 * k + ahead for k in range(1, 5)]
+    rods = cp.LinkRods(0.052, 0.178, angles_deg=angles, big_end_mass=0.3)
+    engine = cp.Engine.radial(cylinders, 5, rods=rods)
+    # Their master stands on the bore at 0°, the engine's upright.
+    forward, backward = anew.phasors(anew.force(star(ahead), masses, big_ends))
+    b = engine.balance(ONE_RADIAN, orders=range(1, 11))
+    for n in range(1, 11):
+        # Samples of positions lose n² times their rounding.
+        assert abs(b[n].force.forward - 1j * forward[n]) < 1e-12, n
+        assert abs(b[n].force.backward - 1j * backward[n]) < 1e-12, n
+    still = cp.Engine.radial(
+        cylinders, 5, rods=cp.LinkRods(0.052, 0.178, angles_deg=angles, big_end_mass=0.0)
+    )
+    theta = 360.0 * np.arange(256) / 256
+    torque = still.waveform(ONE_RADIAN, theta).torque
+    assert np.abs(torque - anew.roll(star(ahead), masses)).max() < 1e-12
+
+
+def test_odd_orders_vanish_exactly_where_knuckles_stand_at_their_bores() -> None:
+    verdicts = radial().vanishing_orders(range(1, 10)).force
+    assert set(verdicts.vanishing) >= {3, 5, 7, 9}
+    turned = radial(angles_deg=[73, 145, 217, 289])
+    assert turned.balance(3000, orders=[3])[3].force.peak > 1.0
+    assert 3 not in turned.vanishing_orders([3]).force.vanishing
+    # In proportion to the angle between, with all digits, down to nothing.
+    third = [
+        turning(radial(angles_deg=[72 + by, 144 + by, 216 + by, 288 + by]), 3)[1] / by
+        for by in (1e-3, 1e-6, 1e-9)
+    ]
+    assert third == pytest.approx([third[0]] * 3, rel=1e-4)
+
+
+def test_a_knuckle_at_the_crankpin_is_a_plain_rod() -> None:
+    plain = cp.Engine.radial(cp.Cylinder(0.06, 0.178, 1.0), 5)
+    hung = cp.Engine.radial(cp.Cylinder(0.06, 0.178, 1.0), 5, rods=cp.LinkRods(0.0))
+    assert np.array_equal(plain.balance(3000).force.xy, hung.balance(3000).force.xy)
+
+
+def test_dead_centres_are_beside_the_bores() -> None:
+    found = cp.dead_centres(radial(), compression_ratio=6.0)
+    assert found.tdc_deg[0] == 0.0
+    assert found.compression_ratio is not None
+    assert found.compression_ratio[0] == pytest.approx(6.0, rel=1e-14)
+    assert np.abs(found.tdc_deg[1:] - 72.0 * np.arange(1, 5)).min() > 1.0
+    theta = np.linspace(0.0, 2.0 * np.pi, 100_001)
+    _, _, pistons = anew.places(star(), theta)
+    for k in range(5):
+        distance = abs(pistons[k])
+        assert found.height[k] == pytest.approx(distance.max(), rel=1e-9)
+        assert found.stroke[k] == pytest.approx(np.ptp(distance), rel=1e-8)
+        assert found.tdc_deg[k] == pytest.approx(np.degrees(theta[distance.argmax()]), abs=4e-3)
+        assert found.bdc_deg[k] == pytest.approx(np.degrees(theta[distance.argmin()]), abs=4e-3)
+    head = found.height[0] + found.stroke[0] / 5.0
+    assert found.compression_ratio == pytest.approx(1 + found.stroke / (head - found.height))
+    with pytest.raises(InputError, match="touch its head"):
+        cp.dead_centres(radial(length=0.18), compression_ratio=900)
+    assert cp.dead_centres(cp.Engine.preset("i4")).compression_ratio is None
+
+
+def test_pressure_does_work_on_link_pistons() -> None:
+    cycle = cp.Cycle.example()
+    engine = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 1.0, bore=0.12), 5, rods=cp.LinkRods(0.052, 0.178)
+    ).with_cycle(cycle)
+    theta = np.linspace(0.0, 720.0, 7201)
+    _, _, pistons = anew.places(star(), np.radians(theta))
+    area, work = 0.25 * np.pi * 0.12**2, 0.0
+    for k, begins in enumerate(engine.firing_deg):
+        gauge = cycle.pressure_at(theta - begins) - 101325.0
+        work += float(np.trapezoid(-gauge * area, abs(pistons[k])))
+    # The trapezoidal rule in steps of 0.1°.
+    mean = np.mean(engine.waveform(3000, theta[:-1]).crank_torque)
+    assert mean == pytest.approx(work / (4.0 * np.pi), rel=1e-4)
+    true = cp.dead_centres(engine).tdc_deg
+    assert (engine.firing_deg - true) % 360.0 == pytest.approx(np.zeros(5), abs=1e-9)
+
+
+def test_the_surface() -> None:
+    v12 = cp.Engine.vee(
+        cp.Cylinder(0.048, 0.19, 1.0), bank_angle_deg=60,
+        throws_deg=[0, 120, 240, 240, 120, 0], spacing=0.1,
+    )  # fmt: skip
+    rods = cp.LinkRods(0.038, 0.152, angles_deg=[67] * 6, big_end_mass=0.2)
+    linked = v12.with_link_rods(rods, master="left")
+    assert [link is None for link in linked.link_rods] == [False, True] * 6
+    assert linked.link_rods[0] == cp.LinkRod(2, 0.038, 67, 0.2)
+    assert [one.rod_length for one in linked.cylinders[:2]] == [0.152, 0.19]
+    for same in (
+        cp.Engine.from_toml(linked.to_toml()), cp.Engine.from_json(linked.to_json()),
+        pickle.loads(pickle.dumps(linked)),  # noqa: S301 - its own
+        copy.deepcopy(linked), linked.replace(name=""),
+        v12.replace(cylinder=linked.cylinders).with_link_rods(linked.link_rods),
+    ):  # fmt: skip
+        assert same == linked
+    assert linked.with_link_rods([None] * 12).link_rods == (None,) * 12
+    assert cp.LinkRod(1, 0.04, "360/7").exact_angle == "360/7"
+    two_rows = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 1.0), 14, rows=2, spacing=0.2,
+        rods=cp.LinkRods(0.052, 0.178), master=[5, 8],
+    )  # fmt: skip
+    assert [k + 1 for k, link in enumerate(two_rows.link_rods) if link is None] == [5, 8]
+
+
+def test_a_rod_with_a_big_end_brings_it_to_the_knuckle() -> None:
+    rod = cp.Rod(mass=0.6, inertia=0.0025, length=0.178, to_crankpin=0.05)
+    link = cp.Cylinder.from_rod(rod, 0.06, 0.8)
+    five = cp.Engine.radial([cp.Cylinder(0.06, 0.23, 1.0)] + [link] * 4, 5, rods=cp.LinkRods(0.052))
+    assert five.rotating_mass.tolist() == [0.0] * 5
+    assert five.link_rods[1] is not None
+    assert five.link_rods[1].big_end_mass == rod.rotating_mass
+    assert cp.Engine.from_toml(five.to_toml()) == five
+
+
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        (lambda: radial(length=0.05), "rod_length"),
+        (lambda: radial(radius=-1.0), "radius"),
+        (lambda: radial(angles_deg=[72]), "angles_deg"),
+        (lambda: radial(big_end_mass=np.nan), "big_end_mass"),
+        (lambda: cp.LinkRod(0, 0.05, 60), "master"),
+        (lambda: radial().with_link_rods([None]), "rods"),
+        (lambda: radial().with_link_rods([1] * 5), r"rods\[0\]"),  # type: ignore[list-item]
+        (lambda: radial().with_link_rods(cp.LinkRods(0.05), master="middle"), "master"),
+        (lambda: radial().with_link_rods(cp.LinkRods(0.05), master=9), "master"),
+        (lambda: radial().with_link_rods(cp.LinkRods(0.05), master=[1, 2]), "master"),
+        (lambda: cp.Engine.preset("i4").with_link_rods(cp.LinkRods(0.05)), "rods"),
+        (lambda: cp.Engine.vee(
+            cp.Cylinder(0.04, 0.15, 1), bank_angle_deg=90, throws_deg=[0], spacing=0.1, master=1
+        ), "master"),
+        (lambda: cp.sweep(radial(), rpm=1000, rod_ratio=[0.2, 0.3]), "rod_ratio"),
+        (lambda: cp.sweep(radial(), rpm=1000, pin_offset=[0.0, 0.001]), "pin_offset"),
+        (lambda: cp.sweep(twin(45, 45), rpm=1000, bank_angle_deg=[45, 60], hold="pins"),
+         "bank_angle_deg"),
+        (lambda: twin(45, 45).with_bank_angle(60, hold="pins"), "bank_angle_deg"),
+        (lambda: cp.tolerances(radial(), 1000, rod_length=1e-5, samples=20), "rod_length"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_rejected_by_name(call: object, named: str) -> None:
+    with pytest.raises(InputError, match=f"^{named}|: {named}|{named}"):
+        call()  # type: ignore[operator]
+
+
+def test_masses_scatter_about_the_linked_engine() -> None:
+    engine = radial(big_end_mass=0.2)
+    found = cp.tolerances(engine, 3000, reciprocating_mass=1e-9, samples=50, orders=[1, 2])
+    assert found is not None
+
+
+def test_sweeps_of_speed_are_balances() -> None:
+    engine = radial(big_end_mass=0.2)
+    s = cp.sweep(engine, rpm=[1000, 3000], orders=[1, 2, 4])
+    b = engine.balance(3000, orders=[1, 2, 4])
+    assert s.force.xy[-1] == pytest.approx(b.force.xy, rel=1e-12)
+
+
+def test_many_link_rods_are_those_of_engines() -> None:
+    rng = np.random.default_rng(7)
+    count = 200
+    rods = rng.choice([0.178, 0.2, 0.13], count)
+    knuckles = rng.choice([0.0, 0.02, 0.052], count)
+    bores = rng.choice([0.0, 72.0, -72.0, 144.0, 180.0], count)
+    angles = bores + rng.choice([0.0, 0.0, 7.0, 1e-6, 90.0], count)
+    orders = [1, 2, 3, 4, 5, 6, 8, 12]
+    many = cp.link_rod_harmonics(
+        0.06 / rods, orders, master_ratio=0.06 / 0.23, knuckle_ratio=knuckles / 0.06,
+        bore_deg=bores, knuckle_deg=angles,
+    )  # fmt: skip
+    assert many.shape == (count, len(orders))
+    theta = 2.0 * np.pi * np.arange(512) / 512
+    for k in range(count):
+        one = anew.Star(0.06, 0.23, knuckles[k], rods[k], (bores[k],), (angles[k],))
+        # θ counts from where the crankpin points along the own bore.
+        _, _, pistons = anew.places(one, theta + np.radians(bores[k]))
+        height = (pistons[1] / np.exp(1j * np.radians(bores[k]))).real / 0.06
+        sampled = 2.0 * np.fft.rfft(height)[orders] / 512 * np.square(orders)
+        # Samples of heights of 3 lose n² times their rounding.
+        assert np.abs(many[k] - sampled).max() < 1e-12, k
+    is_even = (angles == bores) | (knuckles == 0.0)
+    assert (many[is_even][:, [2, 4]] == 0.0).all()
+    assert (many[is_even, 0] == 1.0).all()
+    assert (many[~is_even][:, 2] != 0.0).all()
+    with pytest.raises(InputError, match=r"rod_ratio\[1\]"):
+        cp.link_rod_harmonics(
+            [0.3, 0.9], [2], master_ratio=0.26, knuckle_ratio=0.8, bore_deg=60, knuckle_deg=150
+        )
+    with pytest.raises(InputError, match="shapes that broadcast"):
+        cp.link_rod_harmonics(
+            [0.3, 0.2], [2], master_ratio=[0.2] * 3, knuckle_ratio=0.8, bore_deg=60
+        )
