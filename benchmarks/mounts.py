@@ -83,7 +83,7 @@ def case(count: int, viscous: float) -> Case:
         damping += viscous * moved.T @ moved
     mass = np.diag([150.0] * 3 + [0.0] * 3)
     mass[3:, 3:] = INERTIA
-    load = np.array(powertrain.response(RPM, orders=ORDERS).load)
+    load = np.array(powertrain.response(RPM, orders=ORDERS).wrench)
     omega = np.multiply.outer(RPM * 2 * np.pi / 60, ORDERS)
     return Case(powertrain, vary, stiffness, damping, mass, load, omega)
 

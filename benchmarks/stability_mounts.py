@@ -49,7 +49,7 @@ def merged_error(beyond: float, plain: bool) -> float:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # rotation about z is free
         r = p.response(rpm, orders=[1])
-    load = r.load[0, 0, :2]
+    load = r.wrench[0, 0, :2]
     matrix = np.zeros((2, 2), complex)
     for mount in p.mounts[:3]:
         angle = math.radians(mount.tilt_deg or 0.0)

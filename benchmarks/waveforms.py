@@ -74,7 +74,7 @@ def ours(of: Scene, rtol: float) -> Result:
 def ours_into(of: Scene, rtol: float, out: list[Array]) -> Result:
     """Choose orders and sum them, into given memory."""
     w = swept(of, rtol).waveform(of.theta_deg, exact=False)
-    return w.values("force", out=out[0]), w.values("moment", out=out[1])
+    return w.computed("force", out=out[0]), w.computed("moment", out=out[1])
 
 
 def ours_exact(of: Scene) -> Result:
@@ -163,7 +163,7 @@ def set_up() -> list[Row]:
     runs: dict[str, Callable[[], object]] = {
         "sweep of 1000 engines, orders chosen": lambda: swept(many, 1e-12),
         "Sweep.waveform, nothing computed yet": lambda: sweep.waveform(many.theta_deg),
-        "force of one engine at one angle": lambda: small.values("force"),
+        "force of one engine at one angle": lambda: small.computed("force"),
         "Engine.waveform at one angle": lambda: V8.waveform(
             6000.0, theta_deg=one.theta_deg, torque=False
         ),

@@ -59,7 +59,7 @@ def test_khurmi_16_12() -> None:
     The companion's largest acceleration, 3.46 rad/s², is wrong: 12.203.
     """
     found = cp.flywheel(
-        wave(5000, sin2=600), load=wave(5000, sin1=500), rpm=150, inertia=500 * 0.4**2
+        wave(5000, sin2=600), load_torque=wave(5000, sin1=500), rpm=150, inertia=500 * 0.4**2
     )
     assert found.energy == pytest.approx(1204.167, abs=5e-4)
     assert 100 * found.approximations[0] == pytest.approx(6.10038, abs=5e-6)
@@ -73,7 +73,7 @@ def test_khurmi_16_12() -> None:
 
 def test_sarkar_6_10() -> None:
     """15000 + 8000 sin 2θ against 15000 + 6000 cos θ: 15125 N·m (printed 1370.28)."""
-    given: dict[str, Any] = {"load": wave(15000, cos1=6000), "rpm": 200, "inertia": 1e4}
+    given: dict[str, Any] = {"load_torque": wave(15000, cos1=6000), "rpm": 200, "inertia": 1e4}
     found = cp.flywheel(wave(15000, sin2=8000), **given)
     assert found.energy == pytest.approx(15125.0, rel=CUBIC)
 
@@ -89,7 +89,7 @@ def test_sarkar_6_6() -> None:
 
 def test_speeds_of_a_diagram_solve_the_equation_of_motion() -> None:
     drive, load = wave(300, sin2=200, cos1=-90), wave(300, sin3=120)
-    found = cp.flywheel(drive, load=load, rpm=600, inertia=0.3, period_deg=360)
+    found = cp.flywheel(drive, load_torque=load, rpm=600, inertia=0.3, period_deg=360)
     places = np.arange(0, len(found.theta_deg), 40)
     theta = np.radians(found.theta_deg[places])
 
@@ -384,26 +384,29 @@ def test_a_flywheel_for_any_irregularity(name: str, irregularity: float) -> None
 def test_a_load_may_come_round_more_often() -> None:
     """A load of a period of half a turn is that of a function with it."""
     by_function = cp.flywheel(
-        wave(100, sin1=50), load=lambda deg: np.abs((deg % 180) - 90), rpm=600, inertia=1.0
+        wave(100, sin1=50), load_torque=lambda deg: np.abs((deg % 180) - 90), rpm=600, inertia=1.0
     )
     by_table = cp.flywheel(
-        wave(100, sin1=50), load=([0, 90, 180], [90, 0, 90]), rpm=600, inertia=1.0
+        wave(100, sin1=50), load_torque=([0, 90, 180], [90, 0, 90]), rpm=600, inertia=1.0
     )
     # Bends of the function are at edges of the grid.
     np.testing.assert_allclose(by_table.speed_rpm, by_function.speed_rpm, rtol=1e-12)
     # Between edges of the grid it jumps exactly too, in each of its periods.
     jumps = cp.flywheel(
-        wave(0), load=([0.2, 90.3, 90.3, 180.2, 180.2], [1, 1, -1, -1, 1]), rpm=600, inertia=1.0
+        wave(0),
+        load_torque=([0.2, 90.3, 90.3, 180.2, 180.2], [1, 1, -1, -1, 1]),
+        rpm=600,
+        inertia=1.0,
     )
     upper, lower = np.radians([90.1, 89.9])
     assert jumps.energy == pytest.approx(2 * upper * lower / np.pi, rel=1e-10)
     with pytest.raises(cp.InputError, match="multiple"):
-        cp.flywheel(wave(1), load=([0, 100], [1, 1]), rpm=600, inertia=1.0)
+        cp.flywheel(wave(1), load_torque=([0, 100], [1, 1]), rpm=600, inertia=1.0)
 
 
 def test_the_mean_of_the_load_does_not_count() -> None:
     one, other = (
-        cp.flywheel(wave(100, sin1=50), load=wave(mean, cos2=20), rpm=600, inertia=1.0)
+        cp.flywheel(wave(100, sin1=50), load_torque=wave(mean, cos2=20), rpm=600, inertia=1.0)
         for mean in (0.0, 500.0)
     )
     np.testing.assert_allclose(one.speed_rpm, other.speed_rpm, rtol=1e-12)
@@ -473,7 +476,7 @@ def test_inertia_torque_is_not_counted_twice() -> None:
         ({"period_deg": -1}, "such as 720"),
         ({"period_deg": 1e9}, "such as 720"),
         ({"drive": ([0, 1e-9], [1, 1])}, "such as 720"),
-        ({"load": ([0, 1e-6], [1, 1])}, "a longer period"),
+        ({"load_torque": ([0, 1e-6], [1, 1])}, "a longer period"),
         ({"drive": (np.linspace(0, 360, 100_001), np.zeros(100_001))}, "at most 100000"),
         ({"drive": ([0, 360], [1, np.nan])}, "finite"),
         ({"drive": ([0, 360], [1, 1, 1])}, "2 angles and 3 torques"),
@@ -481,7 +484,7 @@ def test_inertia_torque_is_not_counted_twice() -> None:
         ({"drive": ([0, 720], [1, 1]), "period_deg": 360}, "span 720"),
         ({"drive": ([0, 90], [1, 2]), "period_deg": 360}, "span 90"),
         ({"drive": (np.arange(0, 180, 10), np.arange(18))}, "17 N·m after 170°"),
-        ({"load": ([0, 90, 170], [3, 1, 2])}, "load ends in 2 N·m after 170°"),
+        ({"load_torque": ([0, 90, 170], [3, 1, 2])}, "load_torque ends in 2 N·m after 170°"),
         (
             {"drive": ([0, 90, 90, 90, 360], [1, 2, 3, 4, 1])},
             r"drive\[0\]\[3\] = 90.0: is given three",
@@ -502,17 +505,19 @@ def test_what_makes_no_flywheel_is_rejected(changes: dict[str, Any], message: st
 
 
 def test_the_picture_has_torque_and_speed() -> None:
-    found = cp.flywheel(wave(100, sin1=50), load=wave(100, sin2=10), rpm=600, inertia=1.0)
+    found = cp.flywheel(wave(100, sin1=50), load_torque=wave(100, sin2=10), rpm=600, inertia=1.0)
     above, below = found.plot()[:, 0]
     torque, load = (line.get_ydata() for line in above.lines)
     np.testing.assert_array_equal(torque, found.torque)
-    np.testing.assert_array_equal(load, found.load)
+    np.testing.assert_array_equal(load, found.load_torque)
     np.testing.assert_array_equal(below.lines[0].get_ydata(), found.speed_rpm)
     assert set(below.lines[1].get_ydata()) == {600.0}
 
 
 def test_the_table_has_the_figures() -> None:
-    found = cp.flywheel(wave(5000, sin2=600), load=wave(5000, sin1=500), rpm=150, inertia=80.0)
+    found = cp.flywheel(
+        wave(5000, sin2=600), load_torque=wave(5000, sin1=500), rpm=150, inertia=80.0
+    )
     figures = dict(zip(*(column.values for column in found.table.columns[:2]), strict=True))
     assert figures["fluctuation of energy"] == found.energy
     assert (figures["lowest speed"], figures["highest speed"]) == (

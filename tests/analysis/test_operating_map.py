@@ -20,7 +20,7 @@ def test_each_point_is_that_of_its_speed_and_load() -> None:
     found = cp.operating_map(I4, speeds, cycle=MAP, load=loads, inertia=0.2)
     for j, rpm in enumerate(speeds):
         for k, load in enumerate(loads):
-            engine = I4.with_cycle(MAP.at(rpm=rpm, load=load))
+            engine = I4.with_cycle(MAP.cycle_at(rpm=rpm, load=load))
             alone = cp.bearing_loads(engine, rpm)
             for name in ("main", "crankpin", "wrist_pin", "side_thrust", "rod_force", "gas_force"):
                 np.testing.assert_array_equal(found.read(name)[j, k], alone.read(name, "peak"))

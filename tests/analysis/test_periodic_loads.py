@@ -212,7 +212,7 @@ def test_loads_add_up_in_bearings_mounts_tolerances_and_words(seed: int) -> None
     orders, rpm = [0.5, 1, 1.5, 2, 3, 4], 2500.0
 
     def read(each: cp.Engine) -> list[np.ndarray[Any, Any]]:
-        arrays = [np.asarray(on_mounts(each).response(rpm, orders=orders).load)]
+        arrays = [np.asarray(on_mounts(each).response(rpm, orders=orders).wrench)]
         with contextlib.suppress(cp.InputError):  # a crank without throws has no bearings
             arrays.append(np.asarray(cp.bearing_loads(each, rpm, THETA).main))
         if each.cycles is None:
@@ -398,7 +398,7 @@ def test_flywheels_are_driven_by_loads_too() -> None:
         angle = np.radians(theta)
         return np.asarray(-0.5 * sum((a * np.exp(1j * n * angle)).real for n, a in waves))
 
-    same = cp.flywheel(fired, 1500, inertia=0.3, load=against)
+    same = cp.flywheel(fired, 1500, inertia=0.3, load_torque=against)
     assert loaded.irregularity == pytest.approx(same.irregularity, rel=1e-9)
     assert loaded.loads_counted.endswith("loads: mill")
     alone = cp.flywheel(four.with_loads([mill]), 1500, inertia=0.3)
@@ -533,7 +533,7 @@ def test_pages_of_mounts_have_the_loads_of_a_response(seed: int) -> None:
         response = powertrain.response(rpm, orders=page["orders"])
         omega = rpm * np.pi / 30
         inertia, still = (np.array(page[name]) @ [1, 1j] for name in ("inertia", "gas"))
-        expected = np.asarray(response.load)
+        expected = np.asarray(response.wrench)
         # Each of some hundred terms is rounded once or twice.
         assert np.abs(omega**2 * inertia + still - expected).max() < 1e-12 * np.abs(expected).max()
     table = cp.PeriodicLoad("pump", on="both", torque={2: [1, 2]}, rpm=[1000, 6000])

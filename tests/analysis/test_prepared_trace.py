@@ -152,7 +152,8 @@ def test_filters_take_noise_and_leave_orders_below_them(seed: int) -> None:
     prepared = cp.prepare_trace(known.traces, known.cylinder, lowpass_order=60)
     assert prepared.traces.noise < 0.02 * known.noise < prepared.stages[0].noise
     before, after = (
-        each.mean.torque_harmonics(known.cylinder, [0.5, 1, 6, 12]) for each in prepared.stages
+        each.mean_cycle.torque_harmonics(known.cylinder, [0.5, 1, 6, 12])
+        for each in prepared.stages
     )
     # (12/60)⁸ = 3e-6 of order 12, and what limits of slopes make of noise.
     np.testing.assert_allclose(after, before, atol=2e-4 * abs(before).max())
@@ -215,9 +216,9 @@ def test_the_change_of_each_step_is_reported() -> None:
     assert table["order 1"].values[2] > 0.1
     assert table["step"].values == prepared.names
     orders = prepared.frames["orders"]
-    expected = [abs(each.mean.torque_harmonics(cylinder, 6)[0]) for each in prepared.stages]
+    expected = [abs(each.mean_cycle.torque_harmonics(cylinder, 6)[0]) for each in prepared.stages]
     np.testing.assert_allclose(orders["order 6"].values, expected, rtol=1e-13)
-    assert prepared.cycle == prepared.traces.mean
+    assert prepared.cycle == prepared.traces.mean_cycle
     assert prepared.frames["spread"] == prepared.traces.spread(cylinder)
     plain = cp.prepare_trace(traces, cylinder)
     assert plain.traces == traces

@@ -285,7 +285,7 @@ def test_a_sweep_without_orders_is_as_a_balance() -> None:
     assert s.force.forward.shape == (1, 0)
     assert s.total.force.peak_xy.tolist() == [[0.0, 0.0]]
     buffer = np.full((1, 2, 2), 7.0)  # memory need not be zero before it is written to
-    assert not s.waveform([0.0, 1.0], exact=False).values("force", out=buffer).any()
+    assert not s.waveform([0.0, 1.0], exact=False).computed("force", out=buffer).any()
     assert s.to_dask(1).force.compute(scheduler="synchronous").shape == (1, 0, 2)
 
 

@@ -69,7 +69,7 @@ def test_a_punch_is_driven_by_a_motor() -> None:
     hole = 7 * math.pi * 38 * 32
     for start in (0.0, 100.0, 3600 * 0.84, 3500.0):
         work = cp.stroke_load(hole, thickness=0.032, stroke=0.1, period_deg=3600, start_deg=start)
-        wheel = cp.flywheel(None, 60, load=work, irregularity=0.1)
+        wheel = cp.flywheel(None, 60, load_torque=work, irregularity=0.1)
         assert wheel.energy == pytest.approx(hole * (1 - 32 / 200), rel=1e-12)
         # A hole in ten turns.
         assert wheel.mean_torque == pytest.approx(hole / (20 * math.pi), rel=1e-12)
@@ -107,9 +107,9 @@ def test_several_loads_add() -> None:
         step = np.where(turn < 90, 9000, 3667) + np.where(in_stroke, 500 / np.radians(40), 0)
         return np.asarray(step + 500 * np.sin(np.radians(deg)))
 
-    listed = cp.flywheel(drive, 150, load=[steps, "500 sin θ", punch], inertia=80.0)
+    listed = cp.flywheel(drive, 150, load_torque=[steps, "500 sin θ", punch], inertia=80.0)
     # A function is not known to jump; here all do at edges of cells, half degrees.
-    one = cp.flywheel(drive, 150, load=all_three, inertia=80.0)
+    one = cp.flywheel(drive, 150, load_torque=all_three, inertia=80.0)
     assert listed.energy == pytest.approx(one.energy, rel=1e-12)
     assert listed.irregularity == pytest.approx(one.irregularity, rel=1e-9)
 
@@ -234,4 +234,4 @@ def test_a_motor_needs_a_load() -> None:
     with pytest.raises(cp.InputError, match="load of a motor"):
         cp.flywheel(None, 60, inertia=1.0)
     with pytest.raises(cp.InputError, match="period is that of the load"):
-        cp.flywheel(None, 60, inertia=1.0, load="5 sin θ", period_deg=360)
+        cp.flywheel(None, 60, inertia=1.0, load_torque="5 sin θ", period_deg=360)

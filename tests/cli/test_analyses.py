@@ -151,11 +151,11 @@ def test_flywheels_without_an_engine(capsys: CAPTURE, tmp_path: Path) -> None:
     torque = 5000 + 600 * np.sin(np.radians(2 * theta))
     rows = "\n".join(f"{a},{t}" for a, t in zip(theta, torque, strict=True))
     table.write_text(f"angle [deg],torque [N·m]\n{rows}\n")
-    wheel = cp.flywheel((theta, torque), 150, load="5000 + 500 sin θ", inertia=80)
+    wheel = cp.flywheel((theta, torque), 150, load_torque="5000 + 500 sin θ", inertia=80)
     line = f"flywheel --drive {table} --load 5000+500sin(θ) --rpm 150 --inertia 80"
     assert printed(capsys, line).strip() == str(wheel)
     work = cp.stroke_load(500, duration_deg=40, start_deg=10, period_deg=720)
-    punch = cp.flywheel(None, 60, load=work, irregularity=0.1)
+    punch = cp.flywheel(None, 60, load_torque=work, irregularity=0.1)
     text = printed(
         capsys, "flywheel --stroke-load 500,40,10,720 --rpm 60 --irregularity 10% --frame table"
     )

@@ -181,7 +181,7 @@ BESIDE = {
     ("compressor", "suction"): "clearance",
     ("Traces", "theta_deg"): "pressure",
     ("flywheel", "rpm"): "inertia",
-    ("flywheel", "drive"): "load",
+    ("flywheel", "drive"): "load_torque",
     ("flywheel_rim", "mean_diameter"): "width_ratio",
     ("stroke_load", "period_deg"): "duration_deg",
     ("sweep", "rod_ratio"): "rtol",

@@ -26,14 +26,14 @@ MAP = cp.CycleMap([1000, 4000], LOADS, [[cycle(n, load) for load in LOADS] for n
 
 
 def test_cycles_of_the_map_come_back_as_they_are() -> None:
-    assert MAP.at(rpm=4000, load=0.4) == MAP.cycles[1][1]
-    assert MAP.at(rpm=1000, load=0) == MAP.cycles[0][0]
-    assert MAP.at(rpm=1000, load=1.0) == MAP.cycles[0][2]
+    assert MAP.cycle_at(rpm=4000, load=0.4) == MAP.cycles[1][1]
+    assert MAP.cycle_at(rpm=1000, load=0) == MAP.cycles[0][0]
+    assert MAP.cycle_at(rpm=1000, load=1.0) == MAP.cycles[0][2]
 
 
 def test_pressure_is_bilinear_between_cycles() -> None:
     theta = np.linspace(-350.3, 360.0, 711)
-    found = MAP.at(rpm=1750, load=0.55).pressure_at(theta)
+    found = MAP.cycle_at(rpm=1750, load=0.55).pressure_at(theta)
     near = [[MAP.cycles[k][j].pressure_at(theta) for j in (1, 2)] for k in (0, 1)]
     expected = 0.75 * (0.75 * near[0][0] + 0.25 * near[0][1])
     expected += 0.25 * (0.75 * near[1][0] + 0.25 * near[1][1])
@@ -49,7 +49,7 @@ def test_tables_of_different_grids_and_computed_cycles_mix() -> None:
         for a, b in zip(mixed.cycles[0][:-1], mixed.cycles[0][1:], strict=True)
     ]
     for load, expected in zip((0.5, 1.5), halves, strict=True):
-        between = mixed.at(rpm=2000, load=load)
+        between = mixed.cycle_at(rpm=2000, load=load)
         np.testing.assert_allclose(between.pressure_at(theta), expected, rtol=1e-12)
 
 
@@ -60,7 +60,7 @@ def test_harmonics_of_many_points_are_those_of_their_cycles() -> None:
     assert found.shape == (3, 5, 3)
     for k, speed in enumerate(rpm[:, 0]):
         for j, each in enumerate(load):
-            one = MAP.at(rpm=speed, load=each).torque_harmonics(CYLINDER, orders)
+            one = MAP.cycle_at(rpm=speed, load=each).torque_harmonics(CYLINDER, orders)
             np.testing.assert_allclose(found[k, j], one, rtol=1e-11)
 
 
@@ -88,9 +88,9 @@ def test_maps_that_are_none_are_named(changes: dict[str, Any], message: str) -> 
 
 def test_nothing_is_extrapolated() -> None:
     with pytest.raises(cp.InputError, match=r"rpm = 900\.0: the map has 1000 to 4000"):
-        MAP.at(rpm=900, load=0.5)
+        MAP.cycle_at(rpm=900, load=0.5)
     with pytest.raises(cp.InputError, match="load = NaN: the map has 0 to 1"):
-        MAP.at(rpm=1000, load=np.nan)
+        MAP.cycle_at(rpm=1000, load=np.nan)
     with pytest.raises(cp.InputError, match="shapes that broadcast"):
         MAP.torque_harmonics(CYLINDER, 1, rpm=[1000, 2000], load=LOADS)
     two = cp.Cycle.motored(CYLINDER, compression_ratio=8, strokes=2)

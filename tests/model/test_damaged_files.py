@@ -315,10 +315,10 @@ def test_four_cylinders_of_one_file_are_read_in_one_call(tmp_path: Path) -> None
     for k, traces in enumerate(four):
         at = np.interp(traces.theta_deg % 720.0, (THETA + 360) % 720, np.roll(every, -360) * 0)
         assert at.shape == traces.theta_deg.shape
-        mean = traces.mean.pressure_at(THETA)
+        mean = traces.mean_cycle.pressure_at(THETA)
         np.testing.assert_allclose(mean, every * 1e5, rtol=1e-6)
         assert traces.name == f"bench, p{k + 1} abs [bar]"
-    engine = cp.Engine.preset("i4").with_cycle([each.mean for each in four])
+    engine = cp.Engine.preset("i4").with_cycle([each.mean_cycle for each in four])
     assert engine.fired
     with pytest.warns(UserWarning, match="columns 2, 3, 4 are headed as pressure, but unlike"):
         assert len(cp.Traces.load(path)) == 1

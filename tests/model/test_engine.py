@@ -144,7 +144,7 @@ def test_the_firing_order_begins_with_cylinder_1() -> None:
         lambda spacing: cp.Engine.boxer(CYLINDER, throws_deg=[0, 180], spacing=spacing),
         lambda spacing: cp.Engine.from_firing_order(CYLINDER, "1-3-4-2", spacing=spacing),
         lambda spacing: cp.Engine.radial(CYLINDER, cylinders=14, rows=2, spacing=spacing),
-        lambda spacing: SEARCH.at(9.13)[0].engine(CYLINDER, spacing=spacing),
+        lambda spacing: SEARCH.at_bank_angle(9.13)[0].engine(CYLINDER, spacing=spacing),
     ],
 )
 def test_spacing_is_a_distance(build: Callable[[float], cp.Engine]) -> None:

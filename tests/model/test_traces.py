@@ -34,7 +34,7 @@ def test_imep_cov_and_harmonics_are_those_of_sums_over_points(seed: int) -> None
     phasors = traces.torque_harmonics(CYLINDER, [0.5, 1, 6])
     expected = again.torque_phasors(THETA, traces.pressure, [0.5, 1, 6], CRANK, 0.086)
     np.testing.assert_allclose(phasors, expected, atol=1e-4 * abs(expected).max())
-    mean = traces.mean.torque_harmonics(CYLINDER, [0.5, 1, 6])
+    mean = traces.mean_cycle.torque_harmonics(CYLINDER, [0.5, 1, 6])
     # Limits of slopes are not linear in pressure: below the error of interpolation.
     np.testing.assert_allclose(phasors.mean(axis=0), mean, atol=1e-4 * abs(mean).max())
     assert len(traces) == 60
@@ -57,7 +57,7 @@ def test_noise_is_found_and_is_in_the_error_of_harmonics(seed: int) -> None:
     assert (errors > 0.8 * expected).all()
     assert (errors < 4.0 * expected).all()
     known = cp.Cycle.example().torque_harmonics(CYLINDER, [0.5, 6, 12])
-    actual = abs(traces.mean.torque_harmonics(CYLINDER, [0.5, 6, 12]) - known)
+    actual = abs(traces.mean_cycle.torque_harmonics(CYLINDER, [0.5, 6, 12]) - known)
     assert (actual < 4.0 * errors).all()
     assert np.isnan(cp.Traces(THETA, base[None]).resolution_error(CYLINDER, 1)).all()
 
@@ -233,7 +233,7 @@ def test_angles_of_peaks_are_in_one_turn_of_the_cycle(start: float) -> None:
     traces = cp.Traces(theta, rows)
     np.testing.assert_allclose(traces.peaks_deg, 14.0)
     assert traces.spread(CYLINDER)["mean"].values[1] == 14.0
-    assert "at 14°" in traces.mean.table.title
+    assert "at 14°" in traces.mean_cycle.table.title
     # About the opposite dead centre they are not torn apart.
     with pytest.warns(UserWarning, match=r"peaks at -?\d+°, far from the firing") as caught:
         far = cp.Traces(theta + 346.0, rows)

@@ -168,13 +168,13 @@ def test_designs_are_their_forces_over_speed_and_one_bold() -> None:
     assert len(thin) == 5
     speeds = [700.0, 1100.0, 1500.0]
     for k, line in zip([0, 2, 4, 6, 8], thin, strict=True):
-        force = designs.at(k).response(speeds, orders=[1, 2]).body_force[2]
+        force = designs.powertrain_of(k).response(speeds, orders=[1, 2]).body_force[2]
         np.testing.assert_array_equal(line.get_data(), (speeds, force.peak))
     np.testing.assert_array_equal(bold.get_ydata(), thin[2].get_ydata())
     assert bold.get_linewidth() > 3 * thin[0].get_linewidth()
     least = int(np.linalg.norm(designs.body_force_rms, axis=1).argmin())
     of_mount = designs.plot(mount="right")
-    response = designs.at(least).response(speeds, orders=[1, 2])
+    response = designs.powertrain_of(least).response(speeds, orders=[1, 2])
     drawn = of_mount.lines[-1].get_ydata()
     np.testing.assert_array_equal(drawn, response.mount_force["right"].total.peak)
     for wrong in ({"order": 3}, {"mount": "reer"}, {"design": 9}, {"count": 0}):

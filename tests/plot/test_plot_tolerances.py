@@ -42,7 +42,7 @@ def test_a_histogram_has_all_samples_and_the_nominal_value(ax: Axes) -> None:
     assert T.plot(ax) is ax
     steps = [patch for patch in ax.patches if isinstance(patch, StepPatch)]
     values, edges, _ = steps[-1].get_data()
-    found = np.histogram(T.values(), edges)[0]
+    found = np.histogram(T.sample_values(), edges)[0]
     np.testing.assert_allclose(values, 100.0 * found / 400)
     assert values.sum() == pytest.approx(100.0)
     assert vertical(ax, "nominal") == T.nominal_value()
@@ -54,7 +54,7 @@ def test_a_histogram_has_all_samples_and_the_nominal_value(ax: Axes) -> None:
 def test_an_ecdf_rises_by_a_sample_at_each_value(ax: Axes) -> None:
     T.plot(ax, kind="ecdf", by="[1].force.forward", label="2 g", color="tab:green")
     curve = next(line for line in ax.lines if line.get_label() == "2 g")
-    np.testing.assert_array_equal(curve.get_xdata(), np.sort(T.values("[1].force.forward")))
+    np.testing.assert_array_equal(curve.get_xdata(), np.sort(T.sample_values("[1].force.forward")))
     np.testing.assert_allclose(np.asarray(curve.get_ydata()), 100.0 * np.arange(1, 401) / 400)
     assert curve.get_color() == "tab:green"
     dots = next(line for line in ax.lines if "quantiles" in str(line.get_label()))

@@ -363,7 +363,7 @@ def test_moment_balancer_and_rest_are_the_rederivations(row: Row) -> None:
     """Full, dashed and remaining curves, from exact kinematics, through equations (3) to (6)."""
     engine = found_engine(SEARCH, float(row["bank_angle_deg"]))
     engine = engine.replace(cylinder=CYLINDER.replace(rod_length=CYLINDER.crank_radius / ROD_RATIO))
-    (found,) = SEARCH.at(float(row["bank_angle_deg"]))
+    (found,) = SEARCH.at_bank_angle(float(row["bank_angle_deg"]))
     one, two = (
         (np.round(np.array(bank) * 7 / 360).astype(int) + 1).tolist()
         for bank in (found.first_deg, found.second_deg)

@@ -262,7 +262,10 @@ OBJECTS = Made(
             0.1, cg=1e-3, corners="mounts", frequency=20.0
         ),
         "DesignResponses": lambda: MOUNTED.designs(
-            [900.0, 3000.0], {"left": {"stiffness": [1e5, 2e5]}}, orders=[2], at=[(0.0, 0.3, 0.0)]
+            [900.0, 3000.0],
+            {"left": {"stiffness": [1e5, 2e5]}},
+            orders=[2],
+            points=[(0.0, 0.3, 0.0)],
         ),
         "Actuator": lambda: SHAKER,
         "Cancellation": cancelled,

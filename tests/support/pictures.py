@@ -237,7 +237,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
     ),
     "flywheel": lambda **place: cp.flywheel(
         lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
-        load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
+        load_torque=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
         rpm=150,
         inertia=80.0,
     ).plot(**place),

@@ -52,7 +52,7 @@ def flywheel(
     *,
     inertia: float | None = None,
     irregularity: float | None = None,
-    load: Curve | Sequence[Curve] | None = None,
+    load_torque: Curve | Sequence[Curve] | None = None,
     period_deg: float | None = None,
 ) -> Flywheel:
     """Return the speed over a cycle with a flywheel, or the flywheel that keeps it even.
@@ -80,7 +80,7 @@ def flywheel(
     irregularity : float, optional
         Irregularity to find the moment of inertia for, in place of ``inertia``: largest less
         smallest speed, over the mean speed.
-    load : callable, pair of array_like, str or sequence of these, optional
+    load_torque : callable, pair of array_like, str or sequence of these, optional
         Torque of the load over crank angle, as ``drive``, or of several loads; by default constant.
         At a constant mean speed its mean is that of the drive: only its variation about its mean
         counts. :func:`stroke_load` is that of a punch.
@@ -113,7 +113,7 @@ def flywheel(
     >>> import crankpin as cp
     >>> wheel = cp.flywheel(
     ...     lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
-    ...     load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
+    ...     load_torque=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
     ...     rpm=150,
     ...     inertia=500 * 0.4**2,
     ... )
@@ -150,9 +150,10 @@ def flywheel(
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
         torque = _even(period_deg) if drive is None else _diagram("drive", drive, period_deg)
-    loads = [] if load is None else [_diagram("load", curve, None) for curve in _curves(load)]
+    curves = [] if load_torque is None else _curves(load_torque)
+    loads = [_diagram("load_torque", curve, None) for curve in curves]
     if drive is None and not loads:
-        raise inputs.rejected("load", None, "give the load of a motor of even torque")
+        raise inputs.rejected("load_torque", None, "give the load of a motor of even torque")
     periods = [against.period for against in loads if against.period]
     period = torque.period or (max(periods) if drive is None and periods else TWO_TURNS)
     knots = np.concatenate([torque.knots, *(_repeated(against, period) for against in loads)])
@@ -241,7 +242,7 @@ class Flywheel(Tabled):
     """Speed there, rpm."""
     torque: NDArray[np.float64]
     """Torque of the drive there, N·m; of an engine without that of inertia."""
-    load: NDArray[np.float64]
+    load_torque: NDArray[np.float64]
     """Torque of the load there, N·m."""
     inertia_torque: NDArray[np.float64]
     """Torque on the crank of the inertia of pistons and rods at the mean speed, N·m."""
@@ -255,7 +256,14 @@ class Flywheel(Tabled):
         for name in (*figures, "lowest_rpm", "highest_rpm"):
             inputs.number(name, getattr(self, name))
         inputs.vector("approximations", self.approximations)
-        curves = ("theta_deg", "speed_rpm", "torque", "load", "inertia_torque", "moving_inertia")
+        curves = (
+            "theta_deg",
+            "speed_rpm",
+            "torque",
+            "load_torque",
+            "inertia_torque",
+            "moving_inertia",
+        )
         if len({len(inputs.vector(name, getattr(self, name))) for name in curves}) != 1:
             raise inputs.faulty("theta_deg", "and curves differ in length", "use crankpin.flywheel")
         super().__post_init__()
@@ -431,7 +439,7 @@ def _curves(load: object) -> list[object]:
     """Return the loads: one, or those of a list."""
     if callable(load) or isinstance(load, str):
         return [load]
-    listed = inputs.items("load", load, CURVE_HINT)
+    listed = inputs.items("load_torque", load, CURVE_HINT)
 
     def is_curve(item: Any) -> bool:  # noqa: ANN401 - whatever a list has
         pair = isinstance(item, (list, tuple)) and len(item) == 2
@@ -446,10 +454,10 @@ def _repeated(against: _Diagram, period: float) -> NDArray[np.float64]:
     if ratio * len(against.knots) > MOST_KNOTS:
         fault = f"has {len(against.knots)} angles in {against.period:.10g}°, which is "
         fault += f"{ratio:.10g} times in {period:.10g}°"
-        raise inputs.faulty("load", fault, "give a longer period, or fewer angles")
+        raise inputs.faulty("load_torque", fault, "give a longer period, or fewer angles")
     if abs(ratio - round(ratio)) > EQUAL * ratio:
         hint = f"give one of which {period:.10g}°, the whole period, is a multiple"
-        raise inputs.faulty("load", f"has a period of {against.period:.10g}°", hint)
+        raise inputs.faulty("load_torque", f"has a period of {against.period:.10g}°", hint)
     turns = np.arange(max(round(ratio), 1)) * (against.period or 0.0)
     return np.asarray(np.add.outer(turns, against.knots).ravel())
 

@@ -283,7 +283,7 @@ class PreparedTrace(Tabled):
     @property
     def cycle(self) -> Cycle:
         """Mean cycle after all steps, for :meth:`Engine.with_cycle`."""
-        return self.traces.mean
+        return self.traces.mean_cycle
 
     def imep(self) -> NDArray[np.float64]:
         """Return the mean effective pressure of each cycle after each step, Pa.
@@ -419,7 +419,7 @@ def _window(traces: Traces, window_deg: object, fewest: int) -> NDArray[np.bool_
 def _reference(intake_pressure: object, at_deg: NDArray[np.float64]) -> float:
     """Return the absolute pressure in the intake, Pa: a number, or the mean of a sensor's."""
     if isinstance(intake_pressure, Traces):
-        intake_pressure = intake_pressure.mean
+        intake_pressure = intake_pressure.mean_cycle
     if isinstance(intake_pressure, Cycle):
         return float(intake_pressure.pressure_at(at_deg).mean())
     value = inputs.finite("intake_pressure", intake_pressure)

@@ -84,6 +84,7 @@ def _compare(call: Given) -> Shown:
     ),
     option(
         "--load",
+        argument="load_torque",
         metavar="TORQUE",
         action="append",
         group=DIAGRAM,
@@ -135,7 +136,7 @@ def _flywheel(call: Given) -> Shown:
             drive, note = fired(call, "flywheel")
         elif not (drive or loads):
             raise inputs.faulty("NAME", "is missing", "give an engine, --drive, --load or --areas")
-        wheel = flywheel(drive, rpm, load=loads or None, **figures)
+        wheel = flywheel(drive, rpm, load_torque=loads or None, **figures)
     frames = wheel.frames
     if section := call.keywords(flywheel_rim):
         if wheel.inertia is None:

@@ -50,7 +50,7 @@ class CycleMap(Tabled, Input):
     >>> cycles = [
     ...     [cp.Cycle.wiebe(cylinder, compression_ratio=10, heat=heat) for heat in (300, 1200)]
     ... ]
-    >>> half = cp.CycleMap([3000], [0, 1], cycles).at(rpm=3000, load=0.5)
+    >>> half = cp.CycleMap([3000], [0, 1], cycles).cycle_at(rpm=3000, load=0.5)
     >>> round((half.imep(cylinder) - cycles[0][0].imep(cylinder)) / 1e5, 3)
     4.587
     """
@@ -88,7 +88,7 @@ class CycleMap(Tabled, Input):
         """Compiled counterparts of the cycles, load by load of one speed after the other."""
         return [cycle._core for row in self.cycles for cycle in row]
 
-    def at(self, *, rpm: float, load: float) -> Cycle:
+    def cycle_at(self, *, rpm: float, load: float) -> Cycle:
         """Return the cycle at a speed and a load.
 
         Parameters

@@ -306,7 +306,7 @@ class Traces(Tabled, Input):
             raise inputs.faulty("pressure", fault, OFFSET, AbsentError)
 
     @property
-    def mean(self) -> Cycle:
+    def mean_cycle(self) -> Cycle:
         """Mean of the cycles at every crank angle."""
         self._check_offset()
         return self._raised_mean

@@ -179,7 +179,7 @@ def _flywheel(
     curves = {gas: result.torque}
     if result.engine is not None:
         curves |= {"inertia": result.inertia_torque, "sum": result.torque + result.inertia_torque}
-    drawn = [(curves, result.load, "load", units.headed("torque on the crank", "N·m"))]
+    drawn = [(curves, result.load_torque, "load", units.headed("torque on the crank", "N·m"))]
     drawn.append(
         ({"speed": result.speed_rpm}, result.rpm + 0.0 * theta, "mean", units.Text("speed, rpm"))
     )

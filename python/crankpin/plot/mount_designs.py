@@ -111,13 +111,13 @@ def _designs(
     most = inputs.whole("count", count, 1)
     least = int(np.linalg.norm(result.body_force_rms, axis=1).argmin())
     chosen = least if design is None else inputs.whole("design", design)
-    bold = result.at(chosen)
+    bold = result.powertrain_of(chosen)
     ax = axes_or_new(ax)
     speeds = np.sort(np.unique(result.rpm))
     picked = np.unique(np.linspace(0, len(result) - 1, min(most, len(result))).round().astype(int))
 
     def peaks(k: int) -> NDArray[np.float64]:
-        powertrain = bold if k == chosen else result.at(k)
+        powertrain = bold if k == chosen else result.powertrain_of(k)
         response = powertrain.response(speeds, orders=result.orders)
         force = response.body_force if name is None else response.mount_force[name]
         return np.asarray(force.total.peak if wanted is None else force[wanted].peak)

@@ -57,7 +57,7 @@ def _tolerances(
     if distribution is None:
         return _shares(result, axes_or_new(ax), by, style)
     name = result.by[0] if by is None else by
-    values = result.values(name)
+    values = result.sample_values(name)
     ax = axes_or_new(ax)
     objective = objectives.named(name)
     set_title(ax, labels.name_of(result.engine), _words(result, objective.words))

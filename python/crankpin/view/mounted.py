@@ -151,7 +151,7 @@ def core_numbers(
             {
                 "order": response.orders[k],
                 "motion": _pairs(response.motion[k, :]),
-                "force": _pairs(response.support_load[k, :3]),
+                "force": _pairs(response.support_wrench[k, :3]),
             }
             for k in range(len(response.orders))
         ],

@@ -212,7 +212,7 @@ def test_no_exact_count_can_be_the_papers() -> None:
     ],
 )
 def test_worked_cases(angle: float, amplitude: float, second: tuple[float, float]) -> None:
-    (found,) = cp.search_arrangements(14, alternating=True).at(angle)
+    (found,) = cp.search_arrangements(14, alternating=True).at_bank_angle(angle)
     # printed to these digits
     assert found.counterweight == pytest.approx(amplitude, abs=6e-4)
     assert found.second_order == pytest.approx(second, abs=6e-4)
@@ -397,7 +397,7 @@ def test_the_solutions_are_closed_under_the_symmetries(
     ):
         a, b = condition(first, second)
         assert abs(np.degrees(np.angle(-b / a))) == pytest.approx(angle, abs=SAME_ANGLE)
-        assert search.at(angle, tolerance_deg=SAME_ANGLE)
+        assert search.at_bank_angle(angle, tolerance_deg=SAME_ANGLE)
         engine = cp.Engine.from_lists(
             CYLINDER,
             tdc_deg=[-k for k in (*first, *second)],
@@ -446,7 +446,7 @@ def test_best_and_windows() -> None:
     assert weights[0] < min(inside)
     by_function = search.within(40, 70).best(lambda found: found.counterweight, count=5)
     assert [found.counterweight for found in by_function] == sorted(inside)[:5]
-    assert search.at(33.0) == ()
+    assert search.at_bank_angle(33.0) == ()
     assert search[-1] == search[217]
     table = search.within(0, 30).to_pandas()
     assert len(table) == int((search.bank_angles_deg <= 30).sum())
@@ -537,7 +537,7 @@ def test_bank_angle_of_an_arrangement_is_the_one_listed(
 def test_an_engine_at_0_or_180_degrees_has_two_banks(hold: Literal["firing", "pins"]) -> None:
     search = cp.search_arrangements(6, hold=hold)
     for angle in (0.0, 180.0):
-        (found,) = search.at(angle)
+        (found,) = search.at_bank_angle(angle)
         engine = found.engine(CYLINDER, spacing=0.1)
         assert engine.bank_angle_deg == angle
         assert engine.banks == {"right": (1, 3, 5), "left": (2, 4, 6)}

@@ -197,7 +197,7 @@ def test_receivers_are_points_names_and_motions() -> None:
     for wrong, said in wrongs:
         with pytest.raises(cp.InputError, match=said):
             mounts.before.cancel(HEAD, "mount_force", **wrong)
-    with pytest.raises(cp.InputError, match="at = 'roof'"):
+    with pytest.raises(cp.InputError, match="receivers = 'roof'"):
         r.cancel(HEAD, ["roof"])
 
 
@@ -217,10 +217,10 @@ def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> No
     mass[3:, 3:] = p.body.inertia
     rate = np.multiply.outer(rpm, [1, 2, 4]) * (2.0 * np.pi / 60.0)
     inertia = rate[..., None] ** 2 * (r.motion @ mass)
-    size = np.abs(r.load).max() + np.abs(inertia).max()
+    size = np.abs(r.wrench).max() + np.abs(inertia).max()
     # Some hundred roundings of what is added up.
-    assert np.abs(r.load + inertia - r.support_load).max() < 1e-12 * size
-    pushed = np.abs(r.load[..., :3] - before.load[..., :3])
+    assert np.abs(r.wrench + inertia - r.support_wrench).max() < 1e-12 * size
+    pushed = np.abs(r.wrench[..., :3] - before.wrench[..., :3])
     along = np.einsum(
         "soa,ai->soi", c.response.forces, np.array([one.direction for one in actuators])
     )
@@ -228,9 +228,9 @@ def test_superposition_limits_and_balance_of_random_powertrains(seed: int) -> No
     arms = np.array([one.at for one in actuators]) - np.array(p.body.cg)
     directions = np.array([one.direction for one in actuators])
     turned = np.einsum("soa,ai->soi", c.response.forces, np.cross(arms, directions))
-    assert np.abs(r.load[..., 3:] - before.load[..., 3:] - turned).max() < 1e-12 * size
+    assert np.abs(r.wrench[..., 3:] - before.wrench[..., 3:] - turned).max() < 1e-12 * size
     lost = r.power_lost.sum(axis=-1)
-    reactive = rate * np.linalg.norm(r.load, axis=-1) * np.linalg.norm(r.motion, axis=-1)
+    reactive = rate * np.linalg.norm(r.wrench, axis=-1) * np.linalg.norm(r.motion, axis=-1)
     assert (np.abs(r.power_in - lost) <= 1e-12 * reactive).all()
     one = r.sel(rpm=2000.0)
     assert one.motion == pytest.approx(r.motion[1, ...], rel=1e-12)
@@ -527,19 +527,19 @@ def test_impossible_actuators_are_rejected(change: dict[str, Any], said: str) ->
         ({"actuators": []}, "actuators = "),
         ({"actuators": [HEAD, HEAD]}, "actuators.1..name = .*own name"),
         ({"actuators": [3]}, "actuators.0. = 3"),
-        ({"at": []}, "at = "),
-        ({"at": "bodyforce"}, 'at = .*give "body_force" or "mount_force"'),
-        ({"at": [((0, 0, 0), (0, 0, 0))]}, "at: direction"),
-        ({"at": [(0, 0)]}, "at"),
+        ({"receivers": []}, "receivers = "),
+        ({"receivers": "bodyforce"}, 'receivers = .*give "body_force" or "mount_force"'),
+        ({"receivers": [((0, 0, 0), (0, 0, 0))]}, "receivers: direction"),
+        ({"receivers": [(0, 0)]}, "receivers"),
         ({"orders": [3]}, "orders = 3: is not among the orders"),
         ({"effort": -1}, "effort = -1"),
     ],
 )
 def test_impossible_cancellations_are_rejected(given: dict[str, Any], said: str) -> None:
     response = P.response(3000, orders=[2, 4])
-    arguments: dict[str, Any] = {"actuators": HEAD, "at": [SEAT], **given}
+    arguments: dict[str, Any] = {"actuators": HEAD, "receivers": [SEAT], **given}
     with pytest.raises(cp.InputError, match=said):
-        response.cancel(arguments.pop("actuators"), arguments.pop("at"), **arguments)
+        response.cancel(arguments.pop("actuators"), arguments.pop("receivers"), **arguments)
 
 
 def test_impossible_laws_and_feedbacks_are_rejected() -> None:

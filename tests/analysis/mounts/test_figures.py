@@ -148,7 +148,7 @@ def test_three_mounts_carry_by_statics_alone(stiffness: float | tuple[float, ...
 
 def test_an_inline_four_at_3000_rpm() -> None:
     r = PLAIN.response(3000, orders=[2, 4, 6])
-    assert abs(r.load[0, [1, 5]]) == near([2317.3515, 164.32704])
+    assert abs(r.wrench[0, [1, 5]]) == near([2317.3515, 164.32704])
     assert r[2].body_force.peak_xyz[:2] == near([10.606355, 48.169592])
     assert abs(r.motion[0, 1]) == near(39.942113e-6)
     head = r.at((0, CG[1] + 0.35, CG[2]))
@@ -168,7 +168,7 @@ def test_roll_of_a_half_order_at_idle() -> None:
     forces = np.array([[[60.0, -60.0]]], complex)
     speeds = np.array([800.0])
     r = cp.results.DrivenResponse(PLAIN, speeds, request, pair, forces, engine_runs=False)
-    assert r.load[0, 0].tolist() == [0, 0, 0, 0, 0, 60]
+    assert r.wrench[0, 0].tolist() == [0, 0, 0, 0, 0, 60]
     assert np.degrees(abs(r.motion[0, 0, 5])) == near(0.095812975)
 
 

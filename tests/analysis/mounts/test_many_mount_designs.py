@@ -30,10 +30,10 @@ def test_designs_are_powertrains_one_by_one(damping: float) -> None:
         "rear": {"at": draw.uniform(-0.5, 0.5, (5, 3)), "loss_factor": draw.uniform(0, 0.3, 5)},
     }
     point = (0.1, 0.3, 0.2)
-    d = p.designs(RPM, vary, orders=[0.5, 1, 2, 4], mount_force=True, at=[point])
+    d = p.designs(RPM, vary, orders=[0.5, 1, 2, 4], mount_force=True, points=[point])
     assert len(d) == 5
     for k in range(5):
-        one = d.at(k)
+        one = d.powertrain_of(k)
         r = one.response(RPM, orders=[0.5, 1, 2, 4])
         assert d.frequency[k] == pytest.approx(one.modes().frequency, rel=1e-14)
         vectors = [r.body_force, *(r.mount_force[n] for n in p.names), r.at(point).velocity]
@@ -44,7 +44,7 @@ def test_designs_are_powertrains_one_by_one(damping: float) -> None:
             size = 1e-10 * vector.peak.max()
             assert most[k, ...] == pytest.approx(vector.peak_xyz.max(axis=0), abs=size)
             assert level[k] == pytest.approx(vector.total.rms_xyz.max(axis=0), abs=size)
-    assert d == p.designs(RPM, vary, orders=[0.5, 1, 2, 4], mount_force=True, at=[point])
+    assert d == p.designs(RPM, vary, orders=[0.5, 1, 2, 4], mount_force=True, points=[point])
 
 
 def test_impossible_designs_are_rejected_by_name() -> None:
@@ -74,7 +74,7 @@ def test_impossible_designs_are_rejected_by_name() -> None:
     d = fluid.designs(RPM, {"left": {"stiffness": ok}}, orders=[2])
     assert np.isnan(d.frequency).all()
     given = fluid.designs(RPM, {"left": {"stiffness": ok}}, orders=[2], frequency=15)
-    assert given.frequency[0] == pytest.approx(d.at(0).modes(15).frequency, rel=1e-14)
+    assert given.frequency[0] == pytest.approx(d.powertrain_of(0).modes(15).frequency, rel=1e-14)
 
 
 def test_a_million_designs_would_be_too_large_or_fit() -> None:

@@ -200,7 +200,7 @@ def test_inputs_and_results_are_frozen_records() -> None:
         with pytest.raises(AttributeError):
             each.anything = 1
     assert BODY.replace(mass=160.0).inertia == BODY.inertia
-    assert not r.load.flags.writeable
+    assert not r.wrench.flags.writeable
     assert not r.body_force.xyz.flags.writeable
     for each in results[:4]:
         assert len(each.table) > 1

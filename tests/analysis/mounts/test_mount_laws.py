@@ -42,16 +42,16 @@ def test_forces_moments_and_power_balance(seed: int) -> None:
     mass = p.body.mass * np.eye(6)
     mass[3:, 3:] = p.body.inertia
     inertia = rate[..., None] ** 2 * (r.motion @ mass)
-    size = np.linalg.norm(r.load, axis=-1) + np.linalg.norm(inertia, axis=-1)
-    size += np.linalg.norm(r.support_load, axis=-1)
+    size = np.linalg.norm(r.wrench, axis=-1) + np.linalg.norm(inertia, axis=-1)
+    size += np.linalg.norm(r.support_wrench, axis=-1)
     # Some hundred roundings of what is added up.
-    assert (np.linalg.norm(r.load + inertia - r.support_load, axis=-1) <= 1e-12 * size).all()
+    assert (np.linalg.norm(r.wrench + inertia - r.support_wrench, axis=-1) <= 1e-12 * size).all()
     forces = np.stack([r.mount_force[name].xyz for name in p.names], axis=-2)
     arms = np.array([mount.at for mount in p.mounts]) - np.array(p.body.cg)
     moments = np.cross(arms, forces).sum(axis=-2)
     whole = np.concatenate([forces.sum(axis=-2), moments], axis=-1)
-    assert (np.linalg.norm(whole - r.support_load, axis=-1) <= 1e-12 * size).all()
-    reactive = rate * np.linalg.norm(r.load, axis=-1) * np.linalg.norm(r.motion, axis=-1)
+    assert (np.linalg.norm(whole - r.support_wrench, axis=-1) <= 1e-12 * size).all()
+    reactive = rate * np.linalg.norm(r.wrench, axis=-1) * np.linalg.norm(r.motion, axis=-1)
     assert (np.abs(r.power_in - r.power_lost.sum(axis=-1)) <= 1e-12 * reactive).all()
     assert (r.power_lost >= 0.0).all()
 
@@ -65,7 +65,7 @@ def test_load_is_the_balance_about_the_cg(seed: int) -> None:
         [b.force.xy, np.zeros((3, 1)), b.moment.xy, b.torque.phasor[:, None]], axis=-1
     )
     # Rounding of what cancels: of the largest force and its lever.
-    assert np.abs(r.load - expected).max() <= 1e-12 * np.abs(expected).max()
+    assert np.abs(r.wrench - expected).max() <= 1e-12 * np.abs(expected).max()
 
 
 @in_turn("seed", range(6))
@@ -162,18 +162,18 @@ def test_moments_about_a_point_are_those_of_the_balance_and_of_the_mounts(seed: 
     moved = r.about(point)
     b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(point)
     moments = [[b[n].moment.x, b[n].moment.y, b[n].torque.phasor] for n in r.orders]
-    size = np.abs(moved.load[0, ...]).max()
+    size = np.abs(moved.wrench[0, ...]).max()
     # Some roundings of forces times arms below a metre.
-    np.testing.assert_allclose(moved.load[0, :, 3:], moments, rtol=0, atol=1e-13 * size)
-    np.testing.assert_array_equal(moved.load[..., :3], r.load[..., :3])
+    np.testing.assert_allclose(moved.wrench[0, :, 3:], moments, rtol=0, atol=1e-13 * size)
+    np.testing.assert_array_equal(moved.wrench[..., :3], r.wrench[..., :3])
     forces = np.stack([r.mount_force[name].xyz for name in p.names], axis=-2)
     arms = np.array([mount.at for mount in p.mounts]) - np.array(point)
     sums = np.cross(arms, forces).sum(axis=-2)
-    size = np.abs(moved.support_load).max()
-    np.testing.assert_allclose(moved.support_load[..., 3:], sums, rtol=0, atol=1e-12 * size)
+    size = np.abs(moved.support_wrench).max()
+    np.testing.assert_allclose(moved.support_wrench[..., 3:], sums, rtol=0, atol=1e-12 * size)
     np.testing.assert_array_equal(moved.motion, r.motion)
-    assert moved.sel(rpm=rpm[1])[2].load.tolist() == moved[2].load[1].tolist()
-    assert r.about(p.body.cg).load.tolist() == r.load.tolist()
+    assert moved.sel(rpm=rpm[1])[2].wrench.tolist() == moved[2].wrench[1].tolist()
+    assert r.about(p.body.cg).wrench.tolist() == r.wrench.tolist()
     auto = p.response(rpm, rtol=1e-3)
     bound, about = auto.error_bound, auto.about(point).error_bound
     assert about["force"] == bound["force"]
@@ -207,7 +207,7 @@ def test_slow_motion_is_that_at_rest(seed: int) -> None:
     state = p.static(torque=-1.0)
     unit = np.append(state.wind_up, np.radians(state.wind_up_deg))
     # ωc/k: 4e-7 rad/s, 500 N·s/m and 5e4 N/m.
-    for load, motion in zip(r.load[:], r.motion[:], strict=True):
+    for load, motion in zip(r.wrench[:], r.motion[:], strict=True):
         size = np.abs(load[5] * unit).max()
         assert motion == pytest.approx(load[5] * unit, rel=0, abs=1e-7 * size)
 
@@ -222,7 +222,7 @@ def test_fast_motion_is_that_of_a_free_body(seed: int) -> None:
     moved = moved_by_force(p, rpm, 0.3 * at, along)
     mass = p.body.mass * np.eye(6)
     mass[3:, 3:] = p.body.inertia
-    free = -np.linalg.solve(mass, moved.load[0, 0]) / (2.0 * np.pi * 100.0) ** 2
+    free = -np.linalg.solve(mass, moved.wrench[0, 0]) / (2.0 * np.pi * 100.0) ** 2
     # Stiffness over inertia at 628 rad/s: six mounts of 1e3 N/m, half a metre off, 3 kg·m².
     assert moved.motion[0, 0] == pytest.approx(free, rel=0, abs=1e-2 * np.abs(free).max())
     assert np.abs(moved.motion[0, 0] - free).max() > 0.0
@@ -263,7 +263,7 @@ def test_there_is_a_ratio_only_where_the_engine_has_a_load(seed: int) -> None:
     for about in (None, (0.1, 0.05, p.engine.reference_z)):
         r = p.response(3000.0, orders=[1, 2, 3, 4])
         r = r if about is None else r.about(about)
-        load, ratio = np.abs(r.load), r.transmissibility
+        load, ratio = np.abs(r.wrench), r.transmissibility
         size = np.linalg.norm(load, axis=-1, keepdims=True)
         assert (np.isnan(ratio) == (load == 0.0)).all()
         # No load beside rounding of the others of its order.

@@ -42,7 +42,7 @@ def near(expected: object, rel: float = FIGURE) -> object:
 def test_a_mass_on_a_mass() -> None:
     """1-D at 25 Hz: 150 kg on 1.2e6(1 + .1i) on 300 kg on 4e5(1 + .05i)."""
     r = STAGES.response(RPM, orders=[1])
-    force = abs(r.load[0, 1])
+    force = abs(r.wrench[0, 1])
     assert r.transmissibility[0, 1] == near(0.64278754)
     assert FIXED.response(RPM, orders=[1]).transmissibility[0, 1] == near(0.48162752)
     centre = r.at((0, 0, 0), on="support")
@@ -107,7 +107,7 @@ def test_what_does_not_move_is_one_stage(kind: str) -> None:
     )
     # The ratio of inertias.
     assert np.abs(two.motion - one.motion).max() <= 1e-8 * np.abs(one.motion).max()
-    assert two.body_force.xyz == pytest.approx(one.body_force.xyz, abs=1e-8 * one.load.real.max())
+    assert two.body_force.xyz == pytest.approx(one.body_force.xyz, abs=1e-8 * one.wrench.real.max())
 
 
 def test_impossible_supports_are_rejected() -> None:

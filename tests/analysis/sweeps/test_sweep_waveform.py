@@ -138,8 +138,8 @@ def test_many_points_are_those_of_a_few(exact: bool) -> None:
     for k in (0, 63, 64, 127, 128, 149):
         few = cp.sweep([V6, UNLIKE], rpm=speeds, rod_ratio=[ratios[k]], orders=many.orders)
         for quantity in QUANTITIES:
-            found = many.waveform(THETA, exact=exact).values(quantity)[:, k]
-            expected = few.waveform(THETA, exact=exact).values(quantity)[:, 0]
+            found = many.waveform(THETA, exact=exact).computed(quantity)[:, k]
+            expected = few.waveform(THETA, exact=exact).computed(quantity)[:, 0]
             apart = np.abs(found - expected).max()
             assert apart <= ROUNDING * size(UNLIKE, 3000.0, quantity)
 
@@ -193,7 +193,7 @@ def test_waveform_sums_the_orders_of_the_sweep_unless_exact_is_given(
 def test_memory_that_is_given(exact: bool) -> None:
     w = cp.sweep(V6, rpm=[1e3, 2e3], rod_ratio=[0.2, 0.3]).waveform(THETA, exact=exact)
     out = np.full((2, 2, 1300, 2), np.nan)
-    assert w.values("force", out=out) is out
+    assert w.computed("force", out=out) is out
     np.testing.assert_array_equal(out, w.force)
     assert out.flags.writeable
     assert not w.force.flags.writeable
@@ -205,7 +205,7 @@ def test_memory_that_is_given(exact: bool) -> None:
         [0.0],
     ):
         with pytest.raises(cp.InputError, match="out"):
-            w.values("force", out=bad)  # type: ignore[arg-type]
+            w.computed("force", out=bad)  # type: ignore[arg-type]
 
 
 def test_what_is_refused() -> None:
@@ -217,7 +217,7 @@ def test_what_is_refused() -> None:
     with pytest.raises(cp.InputError, match="theta_deg"):
         s.waveform([0.0, np.nan])
     with pytest.raises(cp.InputError, match="quantity"):
-        s.waveform([0.0]).values("heave")
+        s.waveform([0.0]).computed("heave")
     by_spectrum = cp.sweep(V6, rpm=1000, spectrum={1: 1.0, 2: 0.3}, orders=[1, 2])
     with pytest.raises(cp.InputError, match="spectrum"):
         by_spectrum.waveform(exact=True)
@@ -233,7 +233,7 @@ def test_what_is_refused() -> None:
 def test_progress_is_told() -> None:
     told: list[tuple[int, int]] = []
     w = cp.sweep(V6, rpm=1000, rod_ratio=np.linspace(0.2, 0.3, 500)).waveform(THETA)
-    w.values("force", progress=lambda done, total: told.append((done, total)))
+    w.computed("force", progress=lambda done, total: told.append((done, total)))
     assert told[-1][0] == told[-1][1] > 1
 
 

@@ -358,17 +358,17 @@ def test_any_orders_can_be_asked_for(orders: tuple[int, ...]) -> None:
 
 def test_statistics_are_those_of_the_values() -> None:
     t = tolerances(by=["[1].moment.backward", "total.force.peak"])
-    values = t.values()
+    values = t.sample_values()
     assert np.array_equal(values, abs(t[1].moment.backward))
-    assert t.values("total.force.peak") is not values
+    assert t.sample_values("total.force.peak") is not values
     # The mean is that of differences from the first: some roundings of 1.1e-16.
-    assert t.mean() == pytest.approx(values.mean(), rel=1e-14)
+    assert t.mean_value() == pytest.approx(values.mean(), rel=1e-14)
     assert t.std() == pytest.approx(values.std(), rel=1e-14)
     assert np.array_equal(t.quantile([0.1, 0.9]), np.quantile(values, [0.1, 0.9]))
     assert t.nominal_value("total.moment.peak") == t.nominal.total.moment.peak
     table = t.table
     assert [column.values[0] for column in table.columns] == [
-        "[1].moment.backward", "N·m", t.nominal_value(), t.mean(), t.std(),
+        "[1].moment.backward", "N·m", t.nominal_value(), t.mean_value(), t.std(),
         *np.quantile(values, [0.05, 0.5, 0.95]),
     ]  # fmt: skip
     assert "standard deviations: reciprocating mass 0.005 kg" in repr(t)
@@ -494,7 +494,7 @@ def test_quantiles_have_the_shape_of_what_was_asked() -> None:
 def test_nothing_varies_where_nothing_deviates() -> None:
     t = cp.tolerances(cp.Engine.preset("v6-60"), rpm=RPM, samples=7, **NONE)
     for name in t.by:
-        assert (t.mean(name), t.std(name)) == (t.nominal_value(name), 0.0)
+        assert (t.mean_value(name), t.std(name)) == (t.nominal_value(name), 0.0)
     assert {column.values for column in t.shares.columns[1:]} == {(0.0,) * len(t.by)}
 
 

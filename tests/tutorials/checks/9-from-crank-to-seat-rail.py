@@ -15,9 +15,9 @@ assert abs(worst.order * worst.rpm / 60 - worst.mode_frequency) < 0.2
 assert modes.frequency.max() < 2 * IDLE / 60
 
 # %% after cell-08
-assert not np.any(run_up.load[..., 0])  # no sideways force of the engine's own
+assert not np.any(run_up.wrench[..., 0])  # no sideways force of the engine's own
 moved = run_up[2].motion[-1, 1] * 148 * (2 * 2 * np.pi * 3000 / 60) ** 2
-assert np.isclose(abs(moved), abs(run_up[2].load[-1, 1]), rtol=0.1)  # a free body
+assert np.isclose(abs(moved), abs(run_up[2].wrench[-1, 1]), rtol=0.1)  # a free body
 
 # %% after cell-10
 assert all(modes.frequency.min() < order * IDLE / 60 < modes.frequency.max() for order in (0.5, 1))

@@ -180,7 +180,7 @@ def search_arrangements(
     >>> search = cp.search_arrangements(cylinders=14, alternating=True)
     >>> search.candidates, search.qualifying, len(search)
     (254016, 12936, 218)
-    >>> round(search.at(49.54)[0].counterweight, 4)
+    >>> round(search.at_bank_angle(49.54)[0].counterweight, 4)
     1.5363
     """
     count = inputs.whole("cylinders", cylinders)
@@ -318,7 +318,9 @@ class ArrangementSearch(Tabled):
     def __iter__(self) -> Iterator[Arrangement]:
         return (self[k] for k in range(len(self)))
 
-    def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
+    def at_bank_angle(
+        self, bank_angle_deg: float, *, tolerance_deg: float = 0.005
+    ) -> tuple[Arrangement, ...]:
         """Return the arrangements listed within a tolerance of a bank angle; empty if none is.
 
         Parameters

@@ -46,7 +46,7 @@ LEVEL = 1e-9
 class DrivenResponse(MountResponse):
     """Response of a powertrain to its engine and to actuators: read as a response without them.
 
-    ``load`` is that of both. Made by :meth:`Cancellation.response`.
+    ``wrench`` is that of both. Made by :meth:`Cancellation.response`.
     """
 
     powertrain: Powertrain
@@ -446,7 +446,7 @@ def _ratio(after: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[n
 def cancel(
     response: MountResponse,
     actuators: object,
-    at: object,
+    receivers: object,
     *,
     orders: Orders | None,
     watch: object,
@@ -478,9 +478,9 @@ def cancel(
             raise inputs.rejected("orders", absent[0], hint)
     if not chosen:
         raise inputs.rejected("orders", orders, "give one order or more")
-    receivers = _places("at", at, response)
+    places = _places("receivers", receivers, response)
     watched = () if watch is None else _places("watch", watch, response)
-    shared = (response, tuple(given), receivers, watched, tuple(chosen), weight)
+    shared = (response, tuple(given), places, watched, tuple(chosen), weight)
     return Cancellation(*shared, norm)  # type: ignore[arg-type] # checked
 
 

@@ -182,7 +182,7 @@ class DesignResponses(Labelled):
         """Largest rms over speed of all orders, m/s: (n_designs, n_points, 3)."""
         return self._quantity("velocity_rms")
 
-    def at(self, design: int) -> Powertrain:
+    def powertrain_of(self, design: int) -> Powertrain:
         """Return the powertrain of one design.
 
         Parameters
@@ -232,7 +232,7 @@ def designs(
     orders: Orders,
     rtol: float | None,
     mount_force: bool,
-    at: Iterable[ArrayLike],
+    points: Iterable[ArrayLike],
     frequency: float | None,
 ) -> DesignResponses:
     """Return designs; :meth:`Powertrain.designs` documents the arguments."""
@@ -255,8 +255,8 @@ def designs(
         raise inputs.faulty(
             "vary", f"has {numbers} values", "give one value of each figure for each design"
         )
-    points = inputs.items("at", at, "give a list of points (x, y, z), m")
-    places = tuple(_vector(f"at[{k}]", place) for k, place in enumerate(points))
+    listed = inputs.items("points", points, "give a list of points (x, y, z), m")
+    places = tuple(_vector(f"points[{k}]", place) for k, place in enumerate(listed))
     hertz = None if frequency is None else inputs.number("frequency", frequency)
     is_each = inputs.flag("mount_force", mount_force)
     result = DesignResponses(

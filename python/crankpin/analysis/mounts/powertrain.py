@@ -359,7 +359,7 @@ class Powertrain(Framed, Input):
         orders: Orders = "auto",
         rtol: float | None = None,
         mount_force: bool = False,
-        at: Iterable[ArrayLike] = (),
+        points: Iterable[ArrayLike] = (),
         frequency: float | None = None,
     ) -> DesignResponses:
         """Return natural frequencies and largest responses of many designs of the mounts.
@@ -374,7 +374,7 @@ class Powertrain(Framed, Input):
             each axis, of each design: of shape (n_designs,) or (n_designs, 3).
         mount_force : bool, default False
             True: with the force of each mount, besides their sum.
-        at : sequence of points, default ()
+        points : sequence of points, default ()
             Places (x, y, z) in the engine's axes, m, whose velocity counts.
         frequency : float, optional
             Frequency at which natural frequencies take the dynamic stiffness, Hz, where it depends
@@ -409,7 +409,7 @@ class Powertrain(Framed, Input):
         >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
         >>> stiffness = np.linspace(1e5, 4e5, 1000)
         >>> d = p.designs(range(700, 6001, 50), {"c": {"stiffness": stiffness}}, orders=[2])
-        >>> d.body_force.shape, d.at(999).mounts[2].stiffness
+        >>> d.body_force.shape, d.powertrain_of(999).mounts[2].stiffness
         ((1000, 1, 3), (400000.0, 400000.0, 400000.0))
         """
         return many.designs(
@@ -419,7 +419,7 @@ class Powertrain(Framed, Input):
             orders=orders,
             rtol=rtol,
             mount_force=mount_force,
-            at=at,
+            points=points,
             frequency=frequency,
         )
 

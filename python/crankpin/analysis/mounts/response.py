@@ -249,12 +249,12 @@ class MountQuantities:
         return self._quantity("ground_force")
 
     @property
-    def load(self) -> Quantity[np.complex128]:
-        """Load of the engine, force, N, and moment, N·m: (…, n_orders, n_loads).
+    def wrench(self) -> Quantity[np.complex128]:
+        """Load of the engine on the body, force, N, and moment, N·m: (…, n_orders, n_loads).
 
         Moments are about the CG, or the point of :meth:`MountResponse.about`.
         """
-        return self._quantity("load")
+        return self._quantity("wrench")
 
     @property
     def motion(self) -> Quantity[np.complex128]:
@@ -267,19 +267,19 @@ class MountQuantities:
         return self._quantity("subframe_motion")
 
     @property
-    def support_load(self) -> Quantity[np.complex128]:
+    def support_wrench(self) -> Quantity[np.complex128]:
         """Sum of the mounts' forces on what carries them, N, and moments, N·m.
 
         Moments are about the CG, or the point of :meth:`MountResponse.about`. Of shape
         (…, n_orders, n_loads).
         """
-        return self._quantity("support_load")
+        return self._quantity("support_wrench")
 
     @property
     def transmissibility(self) -> Quantity[np.float64]:
         """Load on what carries the mounts over that of the engine, of each component.
 
-        Magnitude of ``support_load`` over that of ``load``, NaN where the engine has no load in
+        Magnitude of ``support_wrench`` over that of ``wrench``, NaN where the engine has no load in
         that direction beside rounding: there mounts make some of loads in others.
         Of shape (…, n_orders, n_loads).
         """
@@ -517,7 +517,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
 
     def _values(self, quantity: str) -> NDArray[Any]:
         if quantity == "body_force":
-            return self.read("support_load")[..., :3]
+            return self.read("support_wrench")[..., :3]
         if quantity in ("transmissibility", "transmissibility_db"):
             return self._ratio(quantity)
         if quantity.startswith("power"):
@@ -532,8 +532,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         compute: dict[str, Callable[[], NDArray[Any]]] = {
             "mount_force": core.mount_forces,
             "ground_force": lambda: core.ground_forces().sum(axis=-2),
-            "load": lambda: core.loads(self._point),
-            "support_load": lambda: core.support_loads(self._point),
+            "wrench": lambda: core.loads(self._point),
+            "support_wrench": lambda: core.support_loads(self._point),
             "motion": core.motions,
             "subframe_motion": core.subframe_motions,
         }
@@ -544,9 +544,9 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         if quantity == "transmissibility_db":
             with np.errstate(divide="ignore"):  # nothing passes
                 return np.asarray(20.0 * np.log10(self.read("transmissibility")))
-        load = np.abs(self.read("load"))
+        load = np.abs(self.read("wrench"))
         ratio = np.full(load.shape, np.nan)
-        np.divide(np.abs(self.read("support_load")), load, out=ratio, where=load > 0.0)
+        np.divide(np.abs(self.read("support_wrench")), load, out=ratio, where=load > 0.0)
         return ratio
 
     def _vectors(self, source: Source) -> NDArray[np.complex128]:
@@ -593,8 +593,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         Returns
         -------
         MountResponse
-            The response, whose ``load``, ``support_load``, ``transmissibility`` and ``error_bound``
-            have moments about the point.
+            The response, whose ``wrench``, ``support_wrench``, ``transmissibility`` and
+            ``error_bound`` have moments about the point.
 
         Raises
         ------
@@ -610,7 +610,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
         ... ]
         >>> r = cp.Powertrain(cp.Engine.preset("i4"), body, mounts).response(3000)
-        >>> pitch = [abs(each[2].load[3]).round(1) for each in (r, r.about(z=0.0))]
+        >>> pitch = [abs(each[2].wrench[3]).round(1) for each in (r, r.about(z=0.0))]
         >>> pitch == [0.0, 347.6]
         True
         """
@@ -667,7 +667,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     def cancel(
         self,
         actuators: Actuator | Sequence[Actuator],
-        at: Any,  # noqa: ANN401 - points, pairs, a mapping or a word
+        receivers: Any,  # noqa: ANN401 - points, pairs, a mapping or a word
         *,
         orders: Orders | None = None,
         watch: Any = None,  # noqa: ANN401 - as above
@@ -680,7 +680,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         ----------
         actuators : Actuator or sequence of Actuator
             What pushes, of distinct names.
-        at : sequence, mapping or {"body_force", "mount_force"}
+        receivers : sequence, mapping or {"body_force", "mount_force"}
             What is minimised: the velocity of points (x, y, z) of the powertrain, of receivers of a
             receptance by name, such as ``"seat rail"``, or of motions of :meth:`at`, which may be
             of a subframe; or of pairs of one of these and a direction, along that; in a list or by
@@ -722,7 +722,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         """
         # By way of the powertrain: what it returns is made of responses.
         return self.powertrain._cancelled(
-            self, actuators, at, orders=orders, watch=watch, effort=effort, norm=norm
+            self, actuators, receivers, orders=orders, watch=watch, effort=effort, norm=norm
         )
 
     def worst(self, quantity: Literal["mount_force", "body_force"] = "mount_force") -> WorstForce:
@@ -841,7 +841,12 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     def _of_loads(self) -> Table:
         places, note = self._shown()
         columns = [Column("order", tuple(self.orders[k] for k in places))]
-        readings = (self.load, self.support_load, self.transmissibility, self.transmissibility_db)
+        readings = (
+            self.wrench,
+            self.support_wrench,
+            self.transmissibility,
+            self.transmissibility_db,
+        )
         pairs = zip(*(np.asarray(values)[places].T for values in readings), strict=True)
         for name, (load, support, ratio, decibels) in zip(COMPONENTS_OF_LOADS, pairs, strict=True):
             unit = "N" if name.startswith("F") else "N·m"

@@ -115,7 +115,7 @@ class GasMap(Record):
     def at(self, engine: Engine, rpm: float, load: float) -> Engine:
         """Return an engine with its cycles at a speed and a load."""
         cycles = [
-            None if cycle_map is None else cycle_map.at(rpm=rpm, load=load)
+            None if cycle_map is None else cycle_map.cycle_at(rpm=rpm, load=load)
             for cycle_map in self.maps
         ]
         return engine.with_cycle(self._of_each(cycles, engine), crankcase=self.crankcase)

@@ -91,9 +91,9 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         return self._request.bounds((0.0, 0.0, 0.0)) if self.exact else self.sweep.error_bound
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
-        return self.values(quantity)
+        return self.computed(quantity)
 
-    def values(
+    def computed(
         self,
         quantity: str = "moment",
         *,
@@ -132,7 +132,7 @@ class SweepWaveform(OverAngle["NDArray[np.float64]"]):
         >>> i4, buffer = cp.Engine.preset("i4"), np.empty((2, 360, 2))
         >>> for rpm in (1000, 2000):
         ...     s = cp.sweep(i4, rpm=rpm, rod_ratio=[0.25, 0.3], orders=[2, 4])
-        ...     force = s.waveform(np.arange(360)).values("force", out=buffer)
+        ...     force = s.waveform(np.arange(360)).computed("force", out=buffer)
         >>> force is buffer
         True
         """

@@ -264,7 +264,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
 
     # --- statistics -----------------------------------------------------------------------------
 
-    def values(self, by: str | None = None) -> NDArray[np.float64]:
+    def sample_values(self, by: str | None = None) -> NDArray[np.float64]:
         """Return a value of each sample, N or N·m: (n_samples,).
 
         Parameters
@@ -284,7 +284,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """
         return _read(self._objective(by), self)
 
-    @documented(values)
+    @documented(sample_values)
     def nominal_value(self, by: str | None = None) -> float:
         """Return the same of the nominal engine, N or N·m.
 
@@ -300,9 +300,9 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         """
         return float(_read(self._objective(by), self.nominal))
 
-    @documented(values)
-    def mean(self, by: str | None = None) -> float:
-        """Return the mean of :meth:`values`.
+    @documented(sample_values)
+    def mean_value(self, by: str | None = None) -> float:
+        """Return the mean of :meth:`sample_values`.
 
         Returns
         -------
@@ -314,13 +314,13 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         InputError
             If there is no such objective.
         """
-        values = self.values(by)
+        values = self.sample_values(by)
         # Equal values are their mean, to the last digit.
         return float(values[0] + (values - values[0]).mean())
 
-    @documented(values)
+    @documented(sample_values)
     def std(self, by: str | None = None) -> float:
-        """Return the standard deviation of :meth:`values`.
+        """Return the standard deviation of :meth:`sample_values`.
 
         Returns
         -------
@@ -332,12 +332,12 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         InputError
             If there is no such objective.
         """
-        values = self.values(by)
+        values = self.sample_values(by)
         return float((values - values[0]).std())
 
-    @documented(values)
+    @documented(sample_values)
     def quantile(self, q: ArrayLike = QUANTILES, by: str | None = None) -> Any:  # noqa: ANN401
-        """Return quantiles of :meth:`values`, of the shape of ``q``.
+        """Return quantiles of :meth:`sample_values`, of the shape of ``q``.
 
         Parameters
         ----------
@@ -357,7 +357,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
             raise inputs.rejected("q", q, "give numbers from 0 to 1")
-        quantiles: NDArray[np.float64] = np.quantile(self.values(by), parts.ravel())
+        quantiles: NDArray[np.float64] = np.quantile(self.sample_values(by), parts.ravel())
         return quantiles.reshape(parts.shape)[()]
 
     @cached_property
@@ -497,7 +497,7 @@ class Tolerances(ByOrder["NDArray[np.float64]"]):
         header += [f"{100 * q:g} %" for q in QUANTILES]
         rows = []
         for by in self.by:
-            figures = (self.nominal_value(by), self.mean(by), self.std(by))
+            figures = (self.nominal_value(by), self.mean_value(by), self.std(by))
             rows.append((by, self._objective(by).unit, *figures, *self.quantile(by=by).tolist()))
         engine = labels.name_of(self.engine)
         title = units.Text(
