@@ -97,7 +97,7 @@ NOTHING_OF_GAS = {
     "TwoPlaneCorrection",  # force and moment
     "PreparedTrace",  # the pressure itself
     "VanishingOrders", "Verdicts",  # which orders of either there are
-    "Firing",  # angles; those that do not fire are named
+    "Firing", "DeadCentres",  # angles; those that do not fire are named
     "MountModes", "MountRobustness", "RollAxes", "StaticState",
     "AdaptiveLaw", "VelocityFeedback",  # of any load
     "Arrangement", "BalancerOption", "Choice", "Design",  # items of results that say it
