@@ -85,7 +85,7 @@ def force(
 
 
 def roll(star: Star, masses: tuple[float, ...], samples: int = 256) -> NDArray[np.float64]:
-    """Return the torque of the walls on the block over ω², by statics of massless rods.
+    """Return the torque of the walls on the block over ω², by equilibrium of massless rods.
 
     Each link is a two-force body; the master gets the links' forces at its knuckles, and its own
     wall's force follows from moments about the crankpin.
