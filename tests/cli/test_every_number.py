@@ -27,6 +27,7 @@ WORDS = {
 """Options that are names, files and sequences, no numbers."""
 NAMES = {
     ("mounts", "--mount"), ("new", "--mount"), ("new", "--body"), ("new", "--cranks"),
+    ("new", "--link-rods"), ("new", "--master"),
     ("trace", "--leave-out"), ("trace", "--recorded-rpm"),
 }  # fmt: skip
 """Options that are so in one command, of fields, or of files with several cycles."""
@@ -72,6 +73,7 @@ VALUES = {
     "--crank-radius": "0.01mm", "--rod-length": "0.01mm", "--order": "2",
     "--stroke": "86mm --rod-length 145mm", "--banks": "60,120", "--strokes": "4", "--crank": "0,0",
     "--dummy": "2", "--pins": "60,30", "--mean-diameter": "1m", "--stroke-load": "500,40",
+    "--cylinder": "1",
     "--width-ratio": "2 --mean-diameter 1m", "--width": "100mm --mean-diameter 1m",
     "--thickness": "30mm --mean-diameter 1m", "--share": "95% --mean-diameter 1m",
     "--vertical": "180", "--length": "2.4m", "--wheels": "-0.8,0.8", "--inclination": "5,5",
@@ -82,7 +84,17 @@ VALUES = {
 ENGINE_OF_A_LOCOMOTIVE = (
     "--stroke 600mm --reciprocating-mass 300kg --z=-350mm,350mm --throws 0,90 --wheels=-800mm,800mm"
 )
+COMPRESSOR = (
+    "compressor --throws 0,180 --bore 80mm --stroke 80mm --rod-length 140mm --piston-mass 400g "
+    "--rod-mass 500g"
+)
 IN_PLACE = {
+    ("new", "--suction"): f"{COMPRESSOR} --discharge 4bar --suction 1bar",
+    ("new", "--discharge"): f"{COMPRESSOR} --discharge 4bar",
+    ("new", "--clearance"): f"{COMPRESSOR} --discharge 4bar --clearance 0.15",
+    ("new", "--exponent"): f"{COMPRESSOR} --discharge 4bar --exponent 1.25",
+    ("new", "--rod-diameter"): f"{COMPRESSOR} --discharge 4bar --rod-diameter 10mm",
+    ("new", "--crosshead-mass"): f"{COMPRESSOR} --crosshead-mass 0.3",
     ("new", "--bank-angle"): "vee --throws 0,90 --bank-angle 60",
     ("new", "--throws"): "inline --throws 0,180",
     ("new", "--pin-split"): "v6 --pin-split 10",
@@ -95,18 +107,6 @@ IN_PLACE = {
     ("new", "--ratio"): "square-four --distance 10cm --ratio 1",
     ("new", "--phase"): "u --throws 0,180 --distance 0.2 --phase 30",
     ("new", "--lead"): "opposed-pistons --throws 0,180 --distance 0.9 --lead 12",
-    ("new", "--crosshead-mass"): "compressor --throws 0,180 --crosshead-mass 20kg",
-    ("new", "--suction"): "compressor --throws 0,180 --bore 300mm --discharge 4bar --suction 1bar",
-    ("new", "--discharge"): "compressor --throws 0,180 --bore 300mm --discharge 4bar",
-    (
-        "new",
-        "--clearance",
-    ): "compressor --throws 0,180 --bore 300mm --discharge 4bar --clearance 12%",
-    ("new", "--exponent"): "compressor --throws 0,180 --bore 300mm --discharge 4bar --exponent 1.2",
-    (
-        "new",
-        "--rod-diameter",
-    ): "compressor --throws 0,180 --bore 300mm --discharge 4bar --rod-diameter 60mm",
     ("new", "--intervals"): "firing-order --firing-order 1-2 --intervals 360,360",
     ("new", "--strokes"): "i3 --strokes 4",
     ("new", "--dummy"): "i3 --dummy 2,3",

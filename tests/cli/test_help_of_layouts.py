@@ -63,6 +63,12 @@ SOUND = {
     "--lead": "--lead 12",
     "--strokes": "--strokes 4",
     "--shared-pins": "--shared-pins",
+    "--suction": f"--bore 80mm {WHOLE} --suction 1bar --discharge 4bar --strokes 2",
+    "--discharge": f"--bore 80mm {WHOLE} --discharge 4bar --strokes 2",
+    "--clearance": f"--bore 80mm {WHOLE} --clearance 0.15 --discharge 4bar --strokes 2",
+    "--exponent": f"--bore 80mm {WHOLE} --exponent 1.25 --discharge 4bar --strokes 2",
+    "--rod-diameter": f"--bore 80mm {WHOLE} --rod-diameter 10mm --discharge 4bar --strokes 2",
+    "--crosshead-mass": "--crosshead-mass 0.3",
     "--body": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000",
     "--mount": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000:0.1",
     "--name": "--name mine",
@@ -85,6 +91,10 @@ def of_the_engine(kind: str, flag: str) -> str:
         known, engine = {}, base.build(base.cylinder, base.spacing)
     count = len(engine)
     throws = ",".join(map(str, base.arguments.get("throws_deg", ()))) if base else ""
+    radius, rod = engine.cylinders[0].crank_radius, engine.cylinders[0].rod_length
+    links = f"--link-rods {0.7 * radius}:{rod}"
+    if flag in ("--link-rods", "--master"):
+        return f"{links} --master 1" if flag == "--master" else links
     own = {
         "--throws": throws,
         "--cylinders": str(count),
@@ -136,6 +146,8 @@ def test_every_option_in_the_help_of_a_kind_is_taken(
     needed = LINES.get(kind, "").split()
     for flag in flags:
         typed = shlex.split(SOUND.get(flag) or of_the_engine(kind, flag))
+        if flag == "--pin-offset" and kind.endswith("link-rods"):  # a master's alone
+            typed = f"--pin-offset 0 {WHOLE}".split()
         beside = [each for each in zip(needed[::2], needed[1::2], strict=True) if flag != each[0]]
         if (kind, flag) == ("lists", "--pins"):
             beside = [each for each in beside if each[0] != "--tdc"]

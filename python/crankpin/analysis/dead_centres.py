@@ -84,9 +84,13 @@ def dead_centres(engine: Engine, *, compression_ratio: float | None = None) -> D
     ...     cp.Cylinder(0.06, 0.23, 1.0), 5, rods=cp.LinkRods(radius=0.052, length=0.178)
     ... )
     >>> cp.dead_centres(five, compression_ratio=6)
-    Engine: dead centres
-    cylinder    TDC °    BDC °    stroke m  height m  compression ratio
-           1    0.000  180.000        0.12      0.29             6.0000
+    5 cylinders: dead centres
+    cylinder    TDC °    BDC °   stroke m   height m  compression ratio
+           1        0  180.000       0.12       0.29             6.0000
+           2   74.310  248.331  0.1201559  0.2879662             5.6154
+           3  147.124  315.341  0.1205086  0.2893398             5.8868
+           4  212.876   44.659  0.1205086  0.2893398             5.8868
+           5  285.690  111.669  0.1201559  0.2879662             5.6154
     """
     core = engine_core(engine)
     ratio = inputs.optional_number("compression_ratio", compression_ratio)

@@ -99,13 +99,13 @@ class Locomotive(Framed, Input):
     >>> cylinder = cp.Cylinder(crank_radius=0.3, rod_length=math.inf, reciprocating_mass=300)
     >>> two = cp.Locomotive(
     ...     cylinder, z=[-0.35, 0.35], throws_deg=[0, 90], wheel_z=[-0.8, 0.8], share=2 / 3,
-    ...     wheel_diameter=1.7, wheel_load=70e3, name="Two cylinders",
+    ...     wheel_diameter=1.7, wheel_load=71e3, name="Two cylinders",
     ... )
     >>> two
     Two cylinders: counterweights and what they leave
     wheel          z m  weight kg·m  angle °  unbalance kg·m  lifts at rpm  lifts at km/h
-    axle 1 right  -0.8       46.309   21.371          46.309        371.27         118.98
-    axle 1 left    0.8       46.309   68.629          46.309        371.27         118.98
+    axle 1 right  -0.8       46.309   21.371          46.309        373.91         119.82
+    axle 1 left    0.8       46.309   68.629          46.309        373.91         119.82
     >>> float(two.forces(speed_kmh=90).tractive_variation.peak.round())
     36700.0
     """

@@ -167,7 +167,7 @@ def _bearings(call: Given) -> Shown:
 def _rod_load(call: Given) -> Shown:
     engine, note = fired(call, "rod-load")
     loads = rod_loads(engine, call.number("--rpm", "rpm"))
-    cylinder = call.whole_numbers("--cylinder", "give the number of a cylinder")[0]
+    cylinder = call.whole("--cylinder")
     return Shown(only(loads.table), loads, {"cylinder": cylinder}, note=note)
 
 

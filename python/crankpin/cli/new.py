@@ -180,6 +180,8 @@ def _refused(typed: argparse.Namespace) -> set[str]:
         refused.add("--dummy")
     if typed.kind not in BUILDERS and len(base.arguments.get("throws_deg", ())) == 1:
         refused.add("--spacing")  # of one throw
+    if "rule" in base.arguments:  # of four-strokes
+        refused |= {option.label for option in COMPRESSOR_OPTIONS}
     return refused
 
 
@@ -201,6 +203,10 @@ def _names(base: presets.Layout) -> set[str]:
         names = {"spacing", "firing_order", "strokes"}
     if "rule" in base.arguments:  # by which the intervals follow from the order
         names -= {"intervals_deg", "shared_pins"}
+    if "rods" in base.arguments:  # of pins that cylinders share in one plane
+        names -= {"pin_split_deg", "bank_stagger", "absent", "rows"}
+    elif base.arguments.get("pin_split_deg"):
+        names -= {"rods", "master"}
     return names
 
 
@@ -212,6 +218,16 @@ PARTS_HELP = "parts of one cylinder, or A,B,… of each (default: a nominal half
 ON_MOUNTS = "body and mounts, for crankpin mounts"
 COMPRESSING = "cycle of a compressor, with ideal valves"
 COMPRESSOR = Cycle.compressor
+COMPRESSOR_OPTIONS = (
+    *keywords(COMPRESSOR, "suction discharge clearance", group=COMPRESSING),
+    keyword(COMPRESSOR, "n", "--exponent", group=COMPRESSING),
+    option(
+        "--rod-diameter",
+        group=COMPRESSING,
+        metavar="LENGTH",
+        help="diameter of the piston rods, which makes the cylinders double acting",
+    ),
+)
 """The function of these options; a method is another object each time."""
 
 
@@ -238,14 +254,7 @@ COMPRESSOR = Cycle.compressor
     ),
     *LAYOUT.values(),
     _of_shape(Engine.from_firing_order, "shared_pins"),
-    *keywords(COMPRESSOR, "suction discharge clearance", group=COMPRESSING),
-    keyword(COMPRESSOR, "n", "--exponent", group=COMPRESSING),
-    option(
-        "--rod-diameter",
-        group=COMPRESSING,
-        metavar="LENGTH",
-        help="diameter of the piston rods, which makes the cylinders double acting",
-    ),
+    *COMPRESSOR_OPTIONS,
     option(
         "--body",
         group=ON_MOUNTS,
