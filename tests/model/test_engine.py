@@ -850,3 +850,11 @@ def test_rows_of_vr_and_w_engines_follow_from_their_offset() -> None:
             fires = Fraction(720 * order.index(number), len(order))
             expected = (float(fires) + late) % 360.0
             assert engine.tdc_deg[number - 1] == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("field", ["cycle", "mains", "reference_z"])
+def test_no_word_stands_for_what_is_not_replaced(field: str) -> None:
+    engine = cp.Engine.preset("i4")
+    with pytest.raises(cp.InputError, match=field):
+        engine.replace(**{field: "kept"})  # type: ignore[arg-type]
+    assert engine.replace(**{field: ...}) == engine  # type: ignore[arg-type]

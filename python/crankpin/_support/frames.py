@@ -133,10 +133,11 @@ class Framed:
         plot = Plot()
 
     def tidy(self, *columns: str) -> Table:
-        """Return the numbers of the table in long form, a row for each.
+        """Return the numbers of the table in long form, a row for each number.
 
-        Columns are those that distinguish the rows, then quantity (where these have quantities,
-        component), value and unit.
+        Columns are those of the table that hold texts or name its rows, as order and rpm do; then
+        quantity, the name of a column of numbers (component, where the table has a column of the
+        name quantity); value and unit.
 
         Parameters
         ----------

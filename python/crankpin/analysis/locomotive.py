@@ -204,7 +204,9 @@ class Locomotive(Framed, Input):
                 hint = f"leave crank out, and give a pin of 1 to {count} or none"
                 raise inputs.faulty(field, fault, hint)
             if field == "weights" and weight.z not in self.wheel_z:
-                raise inputs.faulty(field, f"has a place {weight.z:g}", "give one of wheel_z, m")
+                raise inputs.faulty(
+                    field, f"has a place {weight.z:g}", Hint.of("give one of `wheel_z`, m")
+                )
         engine = self.engine  # an error, or a warning, of the engine's figures
         checks.place(engine._core, "wheel_z", *self.wheel_z)
         checks.place(engine._core, "axle_x", *(x - self.axle_x[0] for x in axles), middle=0.0)

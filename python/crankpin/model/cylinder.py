@@ -232,10 +232,9 @@ class Cylinder:
         }
         for name, figure in of_rod.items():
             if (value := getattr(self, name)) != figure:
+                why = f"`rod` and `piston_mass` make it {figure!r}"
                 hint = "change them together, as Cylinder.from_rod does, or leave out the rod"
-                raise inputs.rejected(
-                    name, value, f"rod and piston_mass make it {figure!r}; {hint}"
-                )
+                raise inputs.rejected(name, value, Hint.of(f"{why}; {hint}"))
 
     @classmethod
     def _of(cls, parts: _Parts, details: _Details) -> Cylinder:

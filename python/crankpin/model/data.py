@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal, NoReturn, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, Self, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    from types import EllipsisType
+
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Order
@@ -36,8 +38,6 @@ Cranks: TypeAlias = tuple[Sequence[tuple[float, float, "Order"]], Sequence[int]]
 
 BANK_ANGLE = "{bank_angle}"
 """Placeholder of names: the bank angle in degrees."""
-KEPT: Final = "kept"
-"""Default of arguments of ``replace`` for which None means something."""
 
 
 class EngineData:
@@ -652,7 +652,7 @@ class EngineData:
         flags = inputs.items("double_acting", double_acting, hint) if several else [double_acting]
         acts = [inputs.flag("double_acting", flag) for flag in flags]
         if crank_end is not None and any(acts):
-            hint = "it acts at crank ends where crank_end is not given; leave one out"
+            hint = Hint.of("it acts at crank ends where `crank_end` is not given; leave one out")
             raise inputs.rejected("double_acting", double_acting, hint)
         of = cycle if crank_end is None else crank_end
         name = "double_acting" if crank_end is None else "crank_end"
@@ -705,9 +705,9 @@ class EngineData:
         counterweights: Iterable[Unbalance] | None = None,
         shafts: Iterable[Shaft] | None = None,
         loads: Iterable[PeriodicLoad] | None = None,
-        mains: ArrayLike | Literal["kept"] | None = KEPT,
-        reference_z: float | Literal["kept"] | None = KEPT,
-        cycle: Cycle | Sequence[Cycle | None] | Literal["kept"] | None = KEPT,
+        mains: ArrayLike | EllipsisType | None = ...,
+        reference_z: float | EllipsisType | None = ...,
+        cycle: Cycle | Sequence[Cycle | None] | EllipsisType | None = ...,
         crankcase: float | None = None,
         firing_order: str | Iterable[int] | None = None,
         strokes: int | None = None,
@@ -770,8 +770,8 @@ class EngineData:
         False
         """
         exact_tdc, exact_bank = self._core.exact_angles
-        bearings: Any = self._core.mains if _is_kept(mains) else mains
-        plane: Any = self._core.reference_z if _is_kept(reference_z) else reference_z
+        bearings: Any = self._core.mains if mains is ... else mains
+        plane: Any = self._core.reference_z if reference_z is ... else reference_z
         core = core_of_lists(
             self.cylinders if cylinder is None else cylinder,
             exact_tdc if tdc_deg is None and pin_deg is None else tdc_deg,
@@ -800,21 +800,21 @@ class EngineData:
         as_before = tdc_deg is None and pin_deg is None and count == self.strokes
         if as_before and firing_order is None and changed.firing_order == self.firing_order:
             changed = type(self)(changed._core.with_turns(self._core.chosen_turns))
-        cycles: Any = self.cycles if _is_kept(cycle) else cycle
+        cycles: Any = self.cycles if cycle is ... else cycle
         if cycles is None:
             inputs.only_with("cycle", crankcase=crankcase)
             return changed
-        if _is_kept(cycle) and (dummies := _dummies(core)) != _dummies(self._core):
+        if cycle is ... and (dummies := _dummies(core)) != _dummies(self._core):
             cycles = [None if k in dummies else one for k, one in enumerate(cycles, start=1)]
             as_before = False
-        if _is_kept(cycle) and as_before and firing_order is None:
+        if cycle is ... and as_before and firing_order is None:
             # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
             below = self._below_pistons(crankcase)
             fired = changed._core.fired_as(self._core, list(range(len(self))), below)
             checks.absolute("crankcase", below)
             fired = fired.firing_as(changed.firing_order, count)
             return type(self)(fired.with_turns(changed._core.chosen_turns))
-        ends = (self._core.crank_ends or []) if _is_kept(cycle) else []
+        ends = (self._core.crank_ends or []) if cycle is ... else []
         kept = [None if k in _dummies(core) else end for k, end in enumerate(ends, start=1)]
         return changed._fired_by(cycles, crankcase, self, kept)
 
@@ -1127,10 +1127,6 @@ def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
     except _core.InputError:  # it lacks a piston that was a dummy
         return ""
     return order if possible else ""
-
-
-def _is_kept(value: object) -> bool:
-    return isinstance(value, str) and value == KEPT
 
 
 def _reduced(degrees: NDArray[np.float64]) -> NDArray[np.float64]:

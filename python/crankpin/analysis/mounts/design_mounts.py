@@ -52,7 +52,22 @@ MOST_STARTS = 1000
 class MountDesign(Tabled):
     """Mounts that were designed, and what they reach.
 
-    Made by :func:`crankpin.design_mounts`.
+    ``table`` has the objectives and requirements before and after, ``fitted`` is the powertrain on
+    the new mounts. ``plot`` draws shares of energy or frequencies of both. Made by
+    :func:`crankpin.design_mounts`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> body = cp.RigidBody(200.0, cg=(0, 0.1, 0.2), inertia=(15, 6, 13))
+    >>> mounts = [
+    ...     cp.Mount(name, at=(x, -0.12, z), stiffness=(3e5, 1e5, 1e5), tilt_deg=90)
+    ...     for name, x, z in [("a", 0.3, 0.0), ("b", -0.3, 0.0), ("c", 0.0, 0.6)]
+    ... ]
+    >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+    >>> d = cp.design_mounts(p, vary="tilt_deg", bounds={"tilt_deg": 45})
+    >>> d.names[0], d.wanted[0], d.reached, d.after[0] <= d.before[0]
+    ('decoupling', 'least', True, True)
     """
 
     powertrain: Powertrain
