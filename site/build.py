@@ -66,6 +66,9 @@ OF_LOADS: dict[Any, str] = {
 }
 """The same of fields of a periodic load."""
 
+KINDS = ("inline", "vee", "flat", "boxer", "radial")
+"""Builders that are kinds of the form under their names; other presets are typed as files are."""
+
 GROUPS = {
     "Singles and twins": ("single", "i2-", "v-twin-", "boxer-2"),
     "Inline": ("i3", "i4", "i5", "i6"),
@@ -203,13 +206,13 @@ def preset(name: str) -> dict[str, Any]:
     listed = {
         key: value for key, value in layout.arguments.items() if key not in ("name", "source")
     }
-    kind = layout.builder
+    kind, typed = layout.builder, " ".join(DECLARING.values()).split()
     common = {"name": engine.name, "title": layout.arguments["name"], "source": engine.source}
     fields = {"stroke": _length(part.stroke), "rod_length": _length(part.rod_length),
               "reciprocating_mass": _mass(part.reciprocating_mass)}  # fmt: skip
     if part.bore is not None:
         fields["bore"] = _length(part.bore)
-    if kind in ("from_lists", "from_firing_order"):
+    if kind not in KINDS or not listed.keys() <= {*typed}:
         return common | {"kind": "lists", "file": json.loads(engine.to_json()), "fields": {}}
     if kind != "radial" or layout.arguments.get("rows", 1) > 1:
         fields["spacing"] = _length(layout.spacing)

@@ -44,7 +44,7 @@ BUILDERS: dict[str, Any] = {
 ELSEWHERE = {
     "cylinder", "rotating_mass", "name", "source",  # of every kind
     "first_tdc_deg", "counterweights", "shafts", "mains", "reference_z", "pin_deg", "cranks",
-    "crank",  # of engine files
+    "crank", "rods", "master",  # of engine files
 }  # fmt: skip
 """Arguments of builders that are no fields of a layout."""
 
@@ -96,6 +96,18 @@ def test_own_45_degree_twin_in_inches_and_ounces(open_workbench: Open) -> None:
     shown = page.locator("td[data-name=force-peak]").first.get_attribute("data-value")
     assert float(shown or "nan") == pytest.approx(first.force.peak, rel=1e-14)
     assert "lbf" in page.locator(".tabled thead").first.inner_text()
+
+
+def test_presets_are_the_librarys(open_workbench: Open) -> None:
+    """With what the form has no fields for, such as link rods."""
+    page = open_workbench()
+    take = """name => {
+        workbench.slots[0].take(Design.preset(name));
+        const [{ engine, faults }] = workbench.slots;
+        return faults.length ? faults[0].message : engine.json;
+    }"""
+    for name in cp.presets():
+        assert cp.Engine.from_json(page.evaluate(take, name)) == cp.Engine.preset(name), name
 
 
 def test_270_degree_twin(open_workbench: Open) -> None:
