@@ -166,6 +166,13 @@ def test_the_description_names_that_firing_order(name: str) -> None:
     assert f"even firing {EVEN[name]}" in cp.presets().descriptions[name]
 
 
+@pytest.mark.parametrize(("name", "bores"), [("opposed-piston-6", 6), ("delta-18", 18)])
+def test_two_pistons_in_each_bore_fire_evenly(name: str, bores: int) -> None:
+    engine = cp.Engine.preset(name)
+    assert engine.chambers == tuple((k, k + bores) for k in range(1, bores + 1))
+    np.testing.assert_allclose(engine.firing_intervals_deg, 360.0 / bores, rtol=0, atol=1e-9)
+
+
 def test_the_180_twin_fires_at_180_and_540() -> None:
     assert cp.Engine.preset("i2-180").tdc_deg.tolist() == [0.0, 180.0]
 
@@ -300,6 +307,10 @@ ZERO = {  # orders of force, orders of moment
     "radial-9": ([2, 4, 6], [1, 2, 4, 6, 8]),
     "radial-14": ([1, 2, 4, 6, 8], [2, 4]),  # rows pull against each other at order 1
     "w16": ([1, 2, 6], [2, 6]),
+    "opposed-piston-6": ([1, 2, 4], [1]),  # two sixes, one 11° ahead
+    "delta-18": ([1, 2, 4], [1]),
+    "rg500": ([1], [1, 2, 4]),
+    "compressor-4": ([1, 2, 4], [2]),  # pairs in mirror image
 }
 
 

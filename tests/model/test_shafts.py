@@ -415,7 +415,13 @@ def bob_weights(engine: cp.Engine, part: str | float = 0.5) -> list[Unbalance]:
     ]
 
 
-PRESETS = {name: cp.Engine.preset(name).replace(rotating_mass=0) for name in cp.presets()}
+ALL_PRESETS = {name: cp.Engine.preset(name).replace(rotating_mass=0) for name in cp.presets()}
+PRESETS = {
+    # Of a crank that turns backwards bob weights remove backward parts; link rods have others.
+    name: engine
+    for name, engine in ALL_PRESETS.items()
+    if all(ratio > 0 for *_, ratio in engine._core.cranks[0]) and not any(engine._core.link_rods)
+}
 CENTRED = [name for name, e in PRESETS.items() if not any(c.pin_offset for c in e.cylinders)]
 
 

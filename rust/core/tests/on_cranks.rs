@@ -311,3 +311,37 @@ fn one_crank_carries_the_pistons_of_a_chamber_without_loading_its_bearings() {
         }
     }
 }
+
+/// Three cranks at the corners of a triangle, the lowest one turning backwards, each bore between two of them.
+#[test]
+fn three_cranks_share_three_chambers_that_fire_forty_degrees_apart() {
+    // A corner that was typed to micrometres.
+    let corners = [[0.0, 0.0], [0.89, 0.0], [0.445, -0.770_763]];
+    let cranks = corners.map(|axis| Crank { axis, ratio: SpeedRatio::ONE });
+    let cranks = [cranks[0], cranks[1], Crank { ratio: SpeedRatio::whole(-1), ..cranks[2] }];
+    // Crank, bore and top dead centre of the later piston of each bore, then of the one that leads by 20°.
+    let pistons = [
+        (0, 0.0, 0.0),
+        (1, 240.0, 40.0),
+        (2, 120.0, 320.0),
+        (1, 180.0, 340.0),
+        (2, 60.0, 20.0),
+        (0, 300.0, 300.0),
+    ];
+    let place = |&(_, bank, tdc): &(usize, f64, f64)| Station {
+        cylinder: cylinder(0.092, 0.3, 0.0),
+        tdc: angle(tdc),
+        bank: angle(bank),
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let engine = Engine::new("", "", pistons.iter().map(place).collect())
+        .and_then(|e| e.with_cranks(cranks.to_vec(), pistons.map(|piston| piston.0).to_vec()))
+        .unwrap();
+    assert_eq!(engine.chambers(), [[0, 3], [1, 4], [2, 5]]);
+    // One crankpin for the two pistons of each crank.
+    assert_eq!(engine.crankpins().len(), 3);
+    let firing = Firing::all(&Arc::new(engine), Strokes::Two, &Cancel::new()).unwrap();
+    let angles: Vec<f64> = firing[0].angles().iter().take(3).map(|a| a.degrees()).collect();
+    assert_eq!(angles, [350.0, 30.0, 310.0]);
+}

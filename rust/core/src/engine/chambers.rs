@@ -11,8 +11,9 @@ use crate::mechanism::motion::CrankPosition;
 use crate::numbers::angle::{Angle, cis_degrees};
 use crate::numbers::error::{Error, Result};
 
-/// Distances below this part of that between two axes are rounding.
-const FACING_TOLERANCE: f64 = 1e-9;
+/// Distances below this part of that between two axes are rounding, of coordinates that were typed too: a tenth of a
+/// millimetre in a metre.
+const FACING_TOLERANCE: f64 = 1e-4;
 /// Most degrees by which one of the pistons may lead the other: further apart they compress little, and the chamber
 /// may be smallest twice in a turn.
 const LARGEST_LEAD: f64 = 90.0;
