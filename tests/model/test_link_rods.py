@@ -295,3 +295,16 @@ def test_rods_are_drawn_from_their_knuckles(theta: float) -> None:
     for k in range(5):
         assert at.highest[k] == pytest.approx(abs(turned[k]).max(), rel=1e-7)
         assert at.lowest[k] == pytest.approx(abs(turned[k]).min(), rel=1e-7)
+
+
+def test_torques_of_masses_at_knuckles_are_never_said_to_be_proved() -> None:
+    found = radial(big_end_mass=0.3).vanishing_orders(range(1, 7))
+    assert set(found.torque.words) == {"undecided"}
+    assert any("knuckles" in reason for reason in found.obstacles)
+    assert {3, 5} <= set(found.force.vanishing)
+    massless = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 0.0), 5, rods=cp.LinkRods(0.052, 0.178, big_end_mass=1.0)
+    )
+    # A knuckle's torque beyond its parts' has no even orders from the fourth on.
+    words = massless.vanishing_orders(range(1, 7)).torque.words
+    assert words == ("undecided", "undecided", "undecided", "remains", "undecided", "remains")
