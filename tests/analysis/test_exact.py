@@ -41,6 +41,8 @@ IRRATIONAL = {
     "w12",
     "w16",
     *(name for name in NAMES if name.startswith("v14-")),
+    # of unlike proportions
+    *(name for name in NAMES if name.endswith("-link-rods")),
 }
 # Sums of at most 16 terms, each rounded a few times to 1.1e-16.
 ROUNDING = 1e-13

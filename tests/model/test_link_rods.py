@@ -9,6 +9,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin import InputError
+from crankpin.analysis.geometry import geometry
 from rederivation import link_rods as anew
 
 ONE_RADIAN = 60.0 / (2.0 * np.pi)
@@ -279,3 +280,31 @@ def test_many_link_rods_are_those_of_engines() -> None:
         cp.link_rod_harmonics(
             [0.3, 0.2], [2], master_ratio=[0.2] * 3, knuckle_ratio=0.8, bore_deg=60
         )
+
+
+@pytest.mark.parametrize("theta", [0.0, 33.0, 250.0])
+def test_rods_are_drawn_from_their_knuckles(theta: float) -> None:
+    engine = radial(angles_deg=[75, 147, 219, 291])
+    at = geometry(engine, theta)
+    turn = 1j  # the master of the other stands at 0°
+    crankpin, lower, pistons = anew.places(star(3.0), np.array([np.radians(theta)]))
+    assert at.rod_foot == pytest.approx(turn * np.concatenate(lower), abs=1e-15)
+    assert at.wrist_pin == pytest.approx(turn * np.concatenate(pistons), abs=1e-15)
+    assert at.crankpin == pytest.approx(turn * np.repeat(crankpin, 5), abs=1e-15)
+    _, _, turned = anew.places(star(3.0), np.linspace(0.0, 2.0 * np.pi, 10_001))
+    for k in range(5):
+        assert at.highest[k] == pytest.approx(abs(turned[k]).max(), rel=1e-7)
+        assert at.lowest[k] == pytest.approx(abs(turned[k]).min(), rel=1e-7)
+
+
+def test_torques_of_masses_at_knuckles_are_never_said_to_be_proved() -> None:
+    found = radial(big_end_mass=0.3).vanishing_orders(range(1, 7))
+    assert set(found.torque.words) == {"undecided"}
+    assert any("knuckles" in reason for reason in found.obstacles)
+    assert {3, 5} <= set(found.force.vanishing)
+    massless = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 0.0), 5, rods=cp.LinkRods(0.052, 0.178, big_end_mass=1.0)
+    )
+    # A knuckle's torque beyond its parts' has no even orders from the fourth on.
+    words = massless.vanishing_orders(range(1, 7)).torque.words
+    assert words == ("undecided", "undecided", "undecided", "remains", "undecided", "remains")

@@ -31,7 +31,7 @@ ENGINES = {
         name: cp.Engine.preset(name)
         for name in (
             "single", "i4", "i5", "v6-60", "v6-90-odd-fire", "vr6", "v8-crossplane", "boxer-6",
-            "w12", "v14-9.13", "v16-45", "i4-ebook",
+            "w12", "v14-9.13", "v16-45", "i4-ebook", "radial-9-link-rods", "v12-60-link-rods",
         )
     },
     "everything": everything(),
@@ -102,6 +102,9 @@ def assert_agree(page: Page, engine: cp.Engine, rpm: float, angle: float) -> Non
             engine.cylinders, engine.tdc_deg, on_cranks(engine), strict=True
         )
     ]
+    if any(engine.link_rods):
+        pistons = np.array(engine._core.rod_ends(angle))[:, 1]
+        heights = (pistons * np.exp(-1j * np.radians(engine.bank_deg))).real.tolist()
     shown = [found[f"piston-{number}"] for number in range(1, len(engine) + 1)]
     np.testing.assert_allclose(shown, heights, rtol=WITHIN)
 

@@ -670,6 +670,29 @@ def test_light_and_dark(open_engine: Open) -> None:
 # --- the engine as it is ------------------------------------------------------------------------
 
 
+def test_link_rods_reach_from_their_knuckles_to_their_pistons(open_engine: Open) -> None:
+    engine = cp.Engine.preset("radial-9-link-rods")
+    page = open_engine(engine)
+    ends = page.eval_on_selector_all(
+        ".scene.cross .rod .core",
+        "found => found.map((each) => each.getAttribute('points').split(' ').map(Number))",
+    )
+    x, y, radius = page.eval_on_selector_all(
+        ".scene.cross .pin-circle",
+        "found => ['cx', 'cy', 'r'].map((name) => +found[0].getAttribute(name))",
+    )
+    scale = radius / engine.cylinders[0].crank_radius
+    angle = float(page.locator("[data-name=crank-angle]").get_attribute("data-value") or 0)
+    expected = [
+        [(x + 1j * y + scale * end.conjugate()) for end in rod]
+        for rod in engine._core.rod_ends(angle)
+    ]
+    drawn = [[complex(a, b), complex(c, d)] for a, b, c, d in ends]
+    for rod in expected:  # within the two decimals of a pixel
+        assert min(np.abs(np.subtract(rod, one)).max() for one in drawn) < 0.03
+    assert len(drawn) == 9
+
+
 def test_each_crank_is_drawn_with_its_sense(open_engine: Open) -> None:
     page = open_engine(square_four())
     circles = page.eval_on_selector_all(

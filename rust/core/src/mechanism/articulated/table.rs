@@ -14,9 +14,9 @@ use crate::numbers::simd::{MultiplyAdd, sin_cos_degrees, vectorised};
 /// Link rods that are evaluated side by side.
 const LANES: usize = 8;
 /// Samples of half a turn are a multiple of this.
-const STEP: usize = 8;
-/// What samples may fold back, as a power of e: 2e-16 of the largest.
-const FOLDED: f64 = 36.0;
+const STEP: usize = 4;
+/// What samples may fold back, as a power of e: 1e-14 times the largest of the motion.
+const FOLDED: f64 = 32.0;
 /// Most samples of half a turn; link rods with narrower strips are evaluated one by one.
 const MOST_SAMPLES: usize = 96;
 
@@ -178,9 +178,13 @@ impl Lanes {
                     return Err(Error::figure(format!("{name}[{i}]"), values[i], hint));
                 }
             }
-            limits::distance(&format!("knuckle_ratio[{i}]"), figures.knuckle_ratios[i])?;
-            limits::finite(&format!("bore_deg[{i}]"), figures.bores_deg[i])?;
-            limits::finite(&format!("knuckle_deg[{i}]"), figures.knuckles_deg[i])?;
+            let numbers =
+                [figures.knuckle_ratios[i], figures.bores_deg[i], figures.knuckles_deg[i]];
+            if numbers[0] < 0.0 || !numbers.iter().all(|value| value.abs() <= limits::LARGEST) {
+                limits::distance(&format!("knuckle_ratio[{i}]"), numbers[0])?;
+                limits::finite(&format!("bore_deg[{i}]"), numbers[1])?;
+                limits::finite(&format!("knuckle_deg[{i}]"), numbers[2])?;
+            }
             let linkage = figures.linkage(i);
             height = height.min(linkage.known_height());
             self.rod[lane] = linkage.rod;

@@ -189,9 +189,8 @@ impl Vanishing {
         if self.verdicts.iter().any(|verdicts| is_open(&verdicts[ProofQuantity::GasTorque])) {
             self.obstacles.extend(gas.obstacle().map(String::from));
         }
-        if numbered.0.iter().flatten().any(|acts| *acts) {
-            let text = "loads that were given by numbers: they cancel with nothing for certain";
-            self.obstacles.push(text.to_owned());
+        if numbered.acts.iter().flatten().any(|acts| *acts) {
+            self.obstacles.push(numbered.text.to_owned());
         }
     }
 }
@@ -506,7 +505,7 @@ pub(crate) fn vanishing_of(
     let (orders_listed, verdicts, obstacles) = (orders.to_vec(), Vec::new(), Vec::new());
     let mut found = Vanishing { orders: orders_listed, verdicts, within_rounding, obstacles };
     let mut errors: Vec<String> = Vec::new();
-    let known = found.within_rounding.iter_mut().zip(gas_remains).zip(&numbered.0);
+    let known = found.within_rounding.iter_mut().zip(gas_remains).zip(&numbered.acts);
     for (&order, ((within, gas_remains), numbered)) in orders.iter().zip(known) {
         // Neither gas nor half orders, which inertia has of shafts at half speed alone, need them.
         let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
@@ -604,7 +603,7 @@ impl<'a> ZeroProofs<'a> {
         let sums = self.proof.sums(order);
         let vanishes = |&quantity: &ProofQuantity| {
             let verdict = self.proof.verdict(&sums, quantity, order, self.cancel);
-            !numbered.0[0][quantity] && verdict == Ok(Verdict::Vanishes)
+            !numbered.acts[0][quantity] && verdict == Ok(Verdict::Vanishes)
         };
         self.cancel.check()?;
         Ok(quantities.iter().all(vanishes))

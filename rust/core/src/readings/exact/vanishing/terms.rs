@@ -258,7 +258,7 @@ impl Proof {
         let at = (motion, share.load);
         match (harmonic.column, self.exact(share.load)) {
             (Column::Force, _) => self.force_channels(motion, order, view),
-            (Column::Roll, _) if view.gears => {
+            (Column::Roll, _) if self.is_by_gears(share.load, view) => {
                 // Once for each gear: with the force.
                 let has_force = self.loads.list[share.load].parts.force.is_some();
                 let of_gear = self.distinct_cylinder_of[share.load].filter(|_| has_force);
@@ -273,6 +273,11 @@ impl Proof {
         }
     }
 
+    /// Whether the torque of a load is counted with its running gear, of which a mass at a knuckle is no part.
+    fn is_by_gears(&self, load: LoadIndex, view: View) -> bool {
+        view.gears && !self.loads.list[load].place.at_knuckle
+    }
+
     /// Factor of a load.
     fn exact(&self, load: LoadIndex) -> ExactFactor {
         self.loads.source(&self.loads.list[load]).exact()
@@ -284,7 +289,7 @@ impl Proof {
         let i = share.load;
         let (list, (unit, weight)) = match share.weight {
             Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar[i]),
-            Weight::Roll if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
+            Weight::Roll if self.is_by_gears(i, view) => (SymbolWeights::Gear, (0, Ratio::ONE)),
             Weight::Roll => (SymbolWeights::Roll, self.rolls[i]),
             Weight::ArmX => (SymbolWeights::Arm, self.arms[i][0]),
             Weight::ArmY => (SymbolWeights::Arm, self.arms[i][1]),
