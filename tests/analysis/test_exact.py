@@ -41,6 +41,9 @@ IRRATIONAL = {
     "w12",
     "w16",
     *(name for name in NAMES if name.startswith("v14-")),
+    # of pistons that face each other on several cranks
+    "opposed-piston-6",
+    "delta-18",
     # of unlike proportions
     *(name for name in NAMES if name.endswith("-link-rods")),
 }
@@ -60,9 +63,17 @@ def zeros(b: cp.results.Balance) -> dict[str, np.ndarray]:
         "moment_forward": b.moment.forward == 0,
         "moment_backward": b.moment.backward == 0,
         "torque": b.torque == 0,
-        "gas_torque": cp.star_diagram(b.engine, b.orders, firing_order=_any_order(b)).read("sums")
-        == 0,
+        "gas_torque": gas_torque(b) == 0,
     }
+
+
+def gas_torque(b: cp.results.Balance) -> np.ndarray:
+    """Sums of gas on the block: of the star, on cranks of two senses of a fired engine."""
+    if all(ratio > 0 for _, _, ratio in b.engine._core.cranks[0]):
+        star = cp.star_diagram(b.engine, b.orders, firing_order=_any_order(b))
+        return np.asarray(star.read("sums"))
+    fired = b.engine.with_cycle(cp.Cycle.example(strokes=b.engine.strokes))
+    return np.asarray(fired.balance(RPM, orders=b.orders).torque.gas)
 
 
 def _any_order(b: cp.results.Balance) -> str:

@@ -964,7 +964,7 @@ def test_intervals_of_cylinders_that_fire_together_are_named() -> None:
 
 
 def test_a_vee_of_an_odd_number_of_cylinders_is_shown_how() -> None:
-    with pytest.raises(cp.InputError, match=r"Engine\.vee\(throws_deg=.*, absent=\[4\]"):
+    with pytest.raises(cp.InputError, match=r"Engine\.vee with throws_deg=.*, absent=\[4\]"):
         cp.Engine.from_firing_order(CYLINDER, "1-3-2", bank_angle_deg=60, spacing=0.1)
 
 

@@ -28,13 +28,19 @@ def test_pins_and_pistons_are_on_an_exact_slider_crank(name: str, theta: float) 
         r, rod, e = cylinder.crank_radius, cylinder.rod_length, cylinder.pin_offset
         # From the definitions: the pin on its circle, the piston pin beside the bore's axis by e on
         # the side to which the crankpin swings, the rod between them.
-        turn = np.radians(theta + engine.pin_deg[k] - engine.bank_deg[k])
+        cranks, crank_of = engine._core.cranks
+        ratio = cranks[crank_of[k]][2]
+        turn = np.radians(ratio * theta + engine.pin_deg[k] - engine.bank_deg[k])
         along_bore = np.exp(1j * np.radians(engine.bank_deg[k]))
         pin = r * np.exp(1j * turn)
+        e *= np.sign(ratio)
         height = pin.real + np.sqrt(rod**2 - (pin.imag - e) ** 2)
         # Angles above are rounded a few times: 1e-13 of a radian.
-        assert at.crankpin[k] / along_bore == pytest.approx(pin, abs=1e-12 * r)
-        assert at.wrist_pin[k] / along_bore == pytest.approx(height + 1j * e, abs=1e-12 * rod)
+        crankpin, wrist_pin = (
+            (place[k] - at.axis[k]) / along_bore for place in (at.crankpin, at.wrist_pin)
+        )
+        assert crankpin == pytest.approx(pin, abs=1e-12 * r)
+        assert wrist_pin == pytest.approx(height + 1j * e, abs=1e-12 * rod)
         assert abs(at.wrist_pin[k] - at.crankpin[k]) == pytest.approx(rod, rel=1e-12)
 
 

@@ -401,7 +401,9 @@ def _engine(
     if dummies:
         engine = _with_dummies(call, engine, dummies, named)
     _check_count(call, kind, base, engine)
-    if has_order and len(engine.chambers) == order.replace("+", "-").count("-") + 1:
+    # An order names the chambers of a layout, of which dummies have none.
+    ordered = len(engine.chambers) + sum(one.dummy for one in engine.cylinders)
+    if has_order and ordered == order.replace("+", "-").count("-") + 1:
         engine = engine.replace(firing_order=allowed(engine._core, order, engine.strokes))
     if not engine.firing_order:
         notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
