@@ -5,7 +5,7 @@
 //! an angle ψ from its shank: K = e^{iθ} + a·e^{i(ψ − D + φ)}. The piston stands at Re K + √(L² − (Im K)²).
 //!
 //! Harmonics are those of samples, as many as the height of the strip demands in which the motion is analytic
-//! ([`strip`]). Even and odd orders are sampled apart: what half a turn negates is proportional to sin(ψ − D) beyond
+//! (`strip`). Even and odd orders are sampled apart: what half a turn negates is proportional to sin(ψ − D) beyond
 //! the crankpin's own, so that odd orders keep their relative accuracy where knuckle and bore nearly agree, and are
 //! zero where they do.
 
