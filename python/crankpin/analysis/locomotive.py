@@ -106,8 +106,8 @@ class Locomotive(Framed, Input):
     wheel          z m  weight kg·m  angle °  unbalance kg·m  lifts at rpm  lifts at km/h
     axle 1 right  -0.8       46.309   21.371          46.309        373.91         119.82
     axle 1 left    0.8       46.309   68.629          46.309        373.91         119.82
-    >>> float(two.forces(speed_kmh=90).tractive_variation.peak.round())
-    36700.0
+    >>> round(two.forces(speed_kmh=90).tractive_variation.peak)
+    36701
     """
 
     cylinder: Cylinder | tuple[Cylinder, ...]

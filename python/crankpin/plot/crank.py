@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -58,7 +59,7 @@ LINE_HEIGHT = 1.3
 """Height of a line of text over the size of its font."""
 AS_LARGE = 6.0**-0.5
 """Radius of a disc over that of a sector of the same area."""
-APART = 2.6
+APART = 3.5
 """Distance of two stars, in what each needs on either side: numbers of pins need room between."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
@@ -141,7 +142,10 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         gap = _widest_gap([*pins[crank]]) if pins[crank] else 0.0
         arrow_round(ax, largest, gap, ink, centre, engine._core.cranks[0][crank][2])
         for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
-            outside(ax, centre + reach * at, listed(cylinders), centre)
+            text = listed(cylinders)
+            if len(cranks) > 1:  # there is little room between stars
+                text = re.sub("(, [^,]+), ", r"\1,\n", text)
+            outside(ax, centre + reach * at, text, centre)
         if len(cranks) > 1:
             text = plain_text(crank_text(engine, crank))
             write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
@@ -268,7 +272,7 @@ def _lines(engine: Engine) -> dict[int, float]:
     """Return the height at which each crank is drawn: the first at its own, others below it, m."""
     first, *others = cranks_with_parts(engine)
     below = min([0.0, *(shaft.y for shaft in engine.shafts)])
-    apart = 4.5 * crank_radius(engine)
+    apart = 6.0 * crank_radius(engine)
     return {first: 0.0} | {crank: below - apart * k for k, crank in enumerate(others, 1)}
 
 

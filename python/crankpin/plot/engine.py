@@ -17,7 +17,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.drawing import picture, svg
 from crankpin.analysis.geometry import crank_angle
 from crankpin.model.engine import Engine
-from crankpin.plot.crank import side, star
+from crankpin.plot.crank import cranks_with_parts, side, star
 from crankpin.plot.layout import (
     Drawn,
     add_legend,
@@ -181,7 +181,9 @@ def all_panels(
     engine: Engine, figure: FigureBase | None, theta: float, style: dict[str, Any]
 ) -> NDArray[Any]:
     """Draw the cross-section and the star beside each other, and the side view below them."""
-    panels = make_panels(None, figure, 2, 2, row_height=0.6, height_ratios=[2.0, 1.1])
+    # Cranks are drawn below each other from the side.
+    heights = [2.0, 1.1 + 0.3 * (len(cranks_with_parts(engine)) - 1)]
+    panels = make_panels(None, figure, 2, 2, row_height=0.6, height_ratios=heights)
     cells = panels.axes
     below = cells[1, 0].get_gridspec()[1, :]
     for cell in cells[1]:

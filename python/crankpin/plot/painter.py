@@ -112,4 +112,4 @@ def name_rows(ax: Axes, names: Sequence[str], **style: Any) -> None:  # noqa: AN
     """Name rows on the left, the first on top."""
     ax.set_yticks(np.arange(len(names)), [plain_text(name) for name in names], **style)
     ax.tick_params(axis="y", length=0)
-    ax.set_ylim(len(names) - 0.5, -0.5)
+    ax.set_ylim(max(len(names), 1) - 0.5, -0.5)  # of none, an empty row
