@@ -73,20 +73,24 @@ def test_balances_are_the_librarys(ask: Ask, engines: Callable[[], list[cp.Engin
             assert entry["order"] == ORDERS[k]
             for name in ("force", "moment"):
                 bound = expected.zero_bound(name)[k]
-                # Sizes of terms are of sines too: to a few units in the last place.
-                assert math.isclose(entry[name]["zero_bound"], bound, rel_tol=1e-14)
+                # Sizes of terms are of sines too: to a few units in the last place, of samples of
+                # link rods to some hundred.
+                linked = any(engine.link_rods)
+                close = 1e-12 if linked else 1e-14
+                assert math.isclose(entry[name]["zero_bound"], bound, rel_tol=close)
                 ours = complexes(entry[name], "forward", "backward", "x", "y")
                 theirs = np.concatenate(
                     [expected.phasors(name, turning=turning)[k] for turning in (True, False)]
                 )
                 same += int((ours == theirs).all())
-                assert (abs(ours - theirs) <= bound).all()
+                rest = 1e-12 * abs(theirs).max() if linked else 0.0
+                assert (abs(ours - theirs) <= bound + rest).all()
             for name in ("torque", "torque.inertia", "torque.gas"):
                 bound = expected.zero_bound(name)[k]
                 crank = f"crank_{name}"
                 theirs = np.array([expected.phasors(n, turning=False)[k] for n in (name, crank)])
                 # Pressure is read between points of a table and integrated: 1e-13 of its torque.
-                size = abs(theirs).max() if name != "torque.inertia" else 0.0
+                size = abs(theirs).max() if linked or name != "torque.inertia" else 0.0
                 ours = complexes(entry[name], "roll", "crank")
                 assert (abs(ours - theirs) <= bound + 1e-12 * size).all()
     # Most are those of the library to the last bit.
@@ -288,8 +292,9 @@ def test_intervals_are_kept_as_they_were_typed(ask: Ask) -> None:
 
 def same_sums(rows: list[Any], of_page: list[Any], page: dict[str, Any], within: float) -> None:
     """Compare rows of the own rod ratios with those of all, to what polynomials leave out."""
-    least, most, turning = page["rod_ratios"]
-    own = page["rod_ratio"]
+    # Of an engine whose rods are not to be changed the page has the own ones too.
+    least, most, turning = page["rod_ratios"] or (0.0, 0.1, 1.0)
+    own = page["rod_ratio"] if page["rod_ratios"] else None
     low, high, q = (
         math.tan(0.5 * math.asin(ratio / turning)) for ratio in (least, most, own or 0.0)
     )
@@ -347,6 +352,8 @@ def test_figures_have_what_the_page_of_the_library_has(ask: Ask) -> None:
         for order, _, _, groups, factor in terms["planar"]:
             for group, *values in groups:
                 ours[numbers.index(order), group] += factor * np.array(values)
+        if not numbers:  # nothing shakes it
+            continue
         balance = engine.with_loads([]).balance(30.0 / np.pi, orders=numbers, torque=False)
         vectors = (balance.force, balance.moment)
         planar = np.stack([part for of in vectors for part in (of.forward, of.backward)], axis=1)

@@ -85,7 +85,7 @@ def stroke_load(
     Returns
     -------
     tuple of ndarray
-        Angles over one period, degrees, and torques, N·m: a ``load`` of :func:`flywheel`.
+        Angles over one period, degrees, and torques, N·m: a ``load_torque`` of :func:`flywheel`.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def stroke_load(
     >>> import crankpin as cp
     >>> hole = 7 * math.pi * 38 * 32
     >>> work = cp.stroke_load(hole, thickness=0.032, stroke=0.1, period_deg=3600)
-    >>> round(cp.flywheel(None, 60, load=work, irregularity=0.1).energy)
+    >>> round(cp.flywheel(None, 60, load_torque=work, irregularity=0.1).energy)
     22463
     """
     taken = inputs.positive("energy", energy)

@@ -241,7 +241,7 @@ class ComputedCycles:
         >>> cylinder = cp.Cylinder(0.1, 0.5, 60, bore=0.3)
         >>> cycle = cp.Cycle.compressor(cylinder, suction=1e5, discharge=4e5)
         >>> f"{cycle.imep(cylinder) / 1e5:.4f} bar"
-        '-1.3218 bar'
+        '-1.3225 bar'
         """
         if not isinstance(cylinder, Cylinder):
             raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")

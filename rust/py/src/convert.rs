@@ -81,7 +81,10 @@ fn keywords((text, value): Piece) -> Vec<Piece> {
         return vec![(text, value)];
     }
     let is_name = |name: &str| name.bytes().all(|byte| byte == b'_' || byte.is_ascii_lowercase());
+    let marks = text.matches('`').count();
     let of = |(k, words): (usize, &str)| match words.split_once(": ") {
+        // Of a text that was cut.
+        _ if k == marks && k % 2 == 1 => (format!("`{words}"), None),
         Some((name, value)) if k % 2 == 1 && is_name(name) => {
             (name.to_owned(), Some(value.to_owned()))
         }

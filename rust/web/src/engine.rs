@@ -54,6 +54,10 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
         };
         shaft.unbalances.iter().map(of_shaft)
     });
+    // Banks that are parallel, or opposite, on cranks of their own are no vee.
+    let is_on_one = (0..count).all(|i| engine.crank_of(i) == engine.crank_of(0));
+    let is_vee = |angle: &f64| is_on_one || (0.0 < *angle && *angle < 180.0);
+    let bank_angle = engine.banks().ok().map(|banks| banks.angle().degrees()).filter(is_vee);
     Ok(json!({
         "name": engine.shown_name(), "source": engine.source(), "cylinders": count,
         "strokes": engine.strokes().number(), "firing_order": engine.firing_order(), "firing": firing,
@@ -62,7 +66,7 @@ fn summary(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Value> {
         "pin_deg": degrees((0..count).map(|i| engine.pin(i))),
         "z": stations.iter().map(|p| p.z).collect::<Vec<_>>(),
         "bank": (0..count).map(bank).collect::<Vec<_>>(),
-        "bank_angle_deg": engine.banks().ok().map(|banks| banks.angle().degrees()),
+        "bank_angle_deg": bank_angle,
         "cranks": cranks.collect::<Vec<_>>(), "mains": engine.bearings(CrankIndex::MAIN),
         "reference_z": engine.reference(None)?,
         "counterweights": engine.counterweights().len(), "shafts": engine.shafts().len(),
