@@ -123,7 +123,7 @@ def calls() -> dict[str, Callable[[], object]]:
         ),
         "arrangements of a V-18": lambda: cp.search_arrangements(18).bank_angles_deg,
         "counterweights": lambda: cp.counterweights(v8, planes=(0.0, 0.4)),
-        "mounts, response": lambda: powertrain.response(3000, orders=orders).read("load"),
+        "mounts, response": lambda: powertrain.response(3000, orders=orders).read("wrench"),
         "mounts, fifty designs": lambda: (
             powertrain.designs(map_speeds, designs, orders=orders).body_force
         ),
