@@ -89,7 +89,9 @@ def peak(turning: NDArray[Any], against: NDArray[Any], orders: tuple[int, ...]) 
 
 def left_out(engine: cp.Engine, kept: tuple[float, ...]) -> dict[str, float]:
     """What all orders but these add to force, moment and either torque at the worst crank angle."""
-    rest = tuple(n for n in range(1, int(max(top(engine), *kept, 1)) + 1) if n not in kept)
+    # Orders of link rods fall more slowly than those of a rod alone.
+    last = max(top(engine), 2 * int(max(kept, default=1)))
+    rest = tuple(n for n in range(1, last + 1) if n not in kept)
     b = engine.balance(RPM, orders=rest)
     torques = (peak(t / 2, np.conj(t) / 2, rest) for t in (b.torque, b.crank_torque))
     return {
@@ -120,8 +122,10 @@ def with_rod(engine: cp.Engine, rod_ratio: float, offset: float) -> cp.Engine:
 @in_turn("offset", [0.0, 0.1])
 @in_turn("name", cp.presets())
 def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
+    preset = cp.Engine.preset(name)
     for rod_ratio in (0.1, 0.3, 0.6, 0.9, 0.99):
-        engine = with_rod(cp.Engine.preset(name), rod_ratio, offset)
+        # Link rods keep the lengths of their stars: shorter ones would not reach.
+        engine = preset if any(preset.link_rods) else with_rod(preset, rod_ratio, offset)
         scale = scales(engine)
         for rtol in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-14):
             b = engine.balance(RPM, orders="auto", rtol=rtol)

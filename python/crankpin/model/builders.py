@@ -771,7 +771,7 @@ class Builders(EngineData):
         ... )
         >>> balance = one.balance(rpm=1000, orders=[1, 2])
         >>> one.chambers, balance[1].force.status, f"{balance[2].force.peak:.1f} N"
-        (((1, 2),), 'zero, proved', '263.6 N')
+        (((1, 2),), 'zero, proved', '261.6 N')
         """
         layout: dict[str, Any] = {
             "throws_deg": throws_deg, "spacing": spacing, "rotating_mass": rotating_mass,

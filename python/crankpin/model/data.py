@@ -504,8 +504,9 @@ class EngineData:
         ...     cylinder, bank_angle_deg=60, throws_deg=[0, 120, 240, 240, 120, 0], spacing=0.1
         ... )
         >>> rods = cp.LinkRods(radius=0.038, length=0.152, angles_deg=[67] * 6)
-        >>> v12.with_link_rods(rods, master="right").vanishing_orders(range(1, 8)).force.remaining
-        (3, 6)
+        >>> force = v12.with_link_rods(rods, master="right").vanishing_orders(range(1, 8)).force
+        >>> force.remaining, force.undecided
+        ((3,), (6,))
         """
         if isinstance(rods, links.LinkRods):
             return type(self)(links.with_masters(self._core, self.banks, rods, master))
