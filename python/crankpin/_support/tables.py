@@ -152,8 +152,8 @@ class Table(Tabled):
         cls, title: str, figures: Iterable[tuple[str, float | None, str]], loads: str = ""
     ) -> Table:
         """Return a table of figures, (name, value, unit), without those that are None."""
-        known = [figure for figure in figures if figure[1] is not None]
-        names, values, row_units = zip(*known, strict=True)
+        numbered = [figure for figure in figures if figure[1] is not None]
+        names, values, row_units = zip(*numbered, strict=True)
         columns = (
             Column("figure", names),
             Column("value", values, digits=6),

@@ -187,8 +187,10 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
         parts = np.moveaxis(values, -1, 0) if axes else values[np.newaxis]
         names = axes if "component" in quantity.dims else kind.components[-len(parts) :]
         return {name: {"value": part} for name, part in zip(names, parts, strict=True)}
-    (own, *_) = kind.components
-    by_name = {"z" if " " in own else own: values}  # a component of one word is its own name
+    (component, *_) = kind.components
+    by_name = {
+        "z" if " " in component else component: values
+    }  # a component of one word is its own name
     if axes:
         by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
     if "axis" in quantity.dims and kind.planar:

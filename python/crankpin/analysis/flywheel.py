@@ -439,13 +439,13 @@ def _curves(load: object) -> list[object]:
     """Return the loads: one, or those of a list."""
     if callable(load) or isinstance(load, str):
         return [load]
-    listed = inputs.items("load_torque", load, CURVE_HINT)
+    curves = inputs.items("load_torque", load, CURVE_HINT)
 
     def is_curve(item: Any) -> bool:  # noqa: ANN401 - whatever a list has
         pair = isinstance(item, (list, tuple)) and len(item) == 2
         return callable(item) or isinstance(item, str) or (pair and all(np.ndim(i) for i in item))
 
-    return listed if listed and all(map(is_curve, listed)) else [load]
+    return curves if curves and all(map(is_curve, curves)) else [load]
 
 
 def _repeated(against: _Diagram, period: float) -> NDArray[np.float64]:

@@ -137,9 +137,9 @@ class LocomotiveForces(Labelled):
                 self.locomotive.wheels, self.hammer_blow.peak.tolist(), loads, strict=True
             )
         ]
-        known = bool(self.locomotive._loads)
+        has_loads = bool(self.locomotive._loads)
         heads: list[str | tuple[str, str]] = ["quantity", "unit", "largest"]
-        heads += [("of the static load", "%")] if known else []
+        heads += [("of the static load", "%")] if has_loads else []
         speed = f"{self.rpm:.6g} rpm"
         if self.locomotive.wheel_diameter is not None:
             speed = f"{self.speed_kmh:.6g} km/h ({speed})"
@@ -147,7 +147,7 @@ class LocomotiveForces(Labelled):
         return Table.from_rows(
             units.Text(f"{name} at {speed}"),
             heads,
-            [row if known else row[:-1] for row in rows],
+            [row if has_loads else row[:-1] for row in rows],
             loads=self.loads_counted,
             row_units=[unit for _, unit, *_ in rows],
         )

@@ -198,8 +198,8 @@ def turning_moment_areas(
     scale = torque
     if angle_scale_deg is not None:
         scale *= float(np.radians(inputs.positive("angle_scale_deg", angle_scale_deg)))
-    listed = inputs.vector("areas", areas)
-    levels, highest, lowest = _core.energy_levels(listed.tolist(), inputs.flag("spread", spread))
+    values = inputs.vector("areas", areas)
+    levels, highest, lowest = _core.energy_levels(values.tolist(), inputs.flag("spread", spread))
     energy = scale * (levels[highest] - levels[lowest])
     speed = None if rpm is None else inputs.positive("rpm", rpm)
     if speed is None:

@@ -816,8 +816,8 @@ class EngineData:
             fired = fired.firing_as(changed.firing_order, count)
             return type(self)(fired.with_turns(changed._core.chosen_turns))
         ends = (self._core.crank_ends or []) if cycle is ... else []
-        kept = [None if k in _dummies(core) else end for k, end in enumerate(ends, start=1)]
-        return changed._fired_by(cycles, crankcase, self, kept)
+        ends_kept = [None if k in _dummies(core) else end for k, end in enumerate(ends, start=1)]
+        return changed._fired_by(cycles, crankcase, self, ends_kept)
 
     def _fired_by(
         self,

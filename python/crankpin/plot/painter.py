@@ -37,9 +37,9 @@ def draw_curves(
     looks = series(ax, len(columns), style)
     return [
         line
-        for (name, values), own in zip(columns.items(), looks, strict=True)
+        for (name, values), look_of_series in zip(columns.items(), looks, strict=True)
         for line in ax.plot(
-            x, values, gid=SERIES, label=joined(label or "", name) or "_", **(look | own)
+            x, values, gid=SERIES, label=joined(label or "", name) or "_", **(look | look_of_series)
         )
     ]
 

@@ -217,10 +217,10 @@ def _controls(engine: Engine, controls: Controls, *, compact: bool) -> list[str]
         "rod_ratio": _core.rod_ratios(engine_core(engine))[0] is not None,
         "bank_angle": vee, "rocking": not compact, "sound": not compact and engine.firing_order,
     }  # fmt: skip
-    known = [name for name in CONTROLS if has.get(name, True)]
+    offered = [name for name in CONTROLS if has.get(name, True)]
     if controls is None:
-        return [name for name in known if not (compact and vee and name == "rod_ratio")]
-    return named_controls(controls, CONTROLS, known)
+        return [name for name in offered if not (compact and vee and name == "rod_ratio")]
+    return named_controls(controls, CONTROLS, offered)
 
 
 def named_controls(
@@ -234,13 +234,13 @@ def named_controls(
         If there is no such control.
     """
     named = [controls] if isinstance(controls, str) else controls
-    listed = inputs.items("controls", named, f'give names, of {", ".join(known)}, or "none"')
-    if listed == ["none"]:
+    chosen = inputs.items("controls", named, f'give names, of {", ".join(known)}, or "none"')
+    if chosen == ["none"]:
         return []
-    for name in listed:
+    for name in chosen:
         if inputs.one_of("controls", name, every) not in known:
             raise inputs.rejected("controls", name, f"this page has {', '.join(known)}")
-    return list(dict.fromkeys(listed))
+    return list(dict.fromkeys(chosen))
 
 
 def in_units(own: Mapping[str, str]) -> dict[str, units.Converted]:
@@ -265,10 +265,10 @@ def _speeds(
     if inertia is None:
         return None
     try:
-        found = flywheel(engine, rpm=rpm, inertia=inertia)
+        wheel = flywheel(engine, rpm=rpm, inertia=inertia)
     except InputError:
         return None
-    speeds: list[float] = np.interp(theta_deg, found.theta_deg, found.speed_rpm).tolist()
+    speeds: list[float] = np.interp(theta_deg, wheel.theta_deg, wheel.speed_rpm).tolist()
     return speeds
 
 

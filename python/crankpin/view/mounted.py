@@ -186,8 +186,8 @@ def _engine_loads(powertrain: Powertrain) -> dict[str, Any]:
         raise inputs.rejected("loads", tables[0], hint)
     scaling = of_speed_squared(engine)
     still = engine.with_loads(each for each in engine.loads if each not in scaling.loads)
-    known = [each.balance(labels.UNIT_RPM).orders for each in (scaling, still)]
-    orders = sorted({*known[0], *known[1]})
+    orders_of = [each.balance(labels.UNIT_RPM).orders for each in (scaling, still)]
+    orders = sorted({*orders_of[0], *orders_of[1]})
 
     def load(of: Engine, without: str) -> list[Any]:
         wrench = of.balance(labels.UNIT_RPM, orders=orders).about(powertrain.body.cg)

@@ -48,14 +48,14 @@ def save_html(
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = figures(
+    payload = figures(
         engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact, controls=controls
     )
     view = "Compact" if compact else "Full"
     text = document(
         engine.name or "Engine",
         (f"{view.lower()}.mjs", "page.mjs"),
-        f"page({view}, {as_json(known)});",
+        f"page({view}, {as_json(payload)});",
         styles=["compact"] if compact else [],
     )
     files.write(file, text)
@@ -71,11 +71,11 @@ def save_mounted_html(
 ) -> None:
     """Write a page of a powertrain; :meth:`Powertrain.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
+    payload = mounted.figures(powertrain, rpm, frequency=frequency, controls=controls)
     text = document(
-        known["name"],
+        payload["name"],
         ("mounted.mjs", "page.mjs"),
-        f"page(Mounted, {as_json(known)});",
+        f"page(Mounted, {as_json(payload)});",
         styles=["mounted"],
     )
     files.write(file, text)
@@ -116,21 +116,21 @@ def modules(*entries: str, folder: Path = WEB) -> dict[str, str]:
     after the other, without ``import`` and ``export``, they are one module. Comments, indents,
     most ends of lines and spaces are left out: no text goes over several lines, or has an arrow.
     """
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
 
     def visit(name: str) -> None:
-        if name in found:
+        if name in texts:
             return
         text = _read(name, folder if (folder / name).exists() else WEB)
         for each in IMPORT.findall(text):
             visit(each)
         text = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
         text = AROUND.sub(lambda match: match[1] or match[0], text)
-        found[name] = END.sub("", text).replace(" => ", "=>")
+        texts[name] = END.sub("", text).replace(" => ", "=>")
 
     for entry in entries:
         visit(entry)
-    return found
+    return texts
 
 
 def as_json(value: object) -> str:

@@ -91,14 +91,14 @@ def of_one_angle(
     at_ends: set[tuple[float, ...]] = set()
     heights: list[float] = []
     for k, (bound, low, high, which) in enumerate(sorted(brackets), start=1):
-        merit, own = merit_of(families[which]), of_family[which]
+        merit, of_one_family = merit_of(families[which]), of_family[which]
         # No objective is below zero.
         least = max(bound, FLAT * merit.weights[-1])
         if len(minima) >= count and least > heapq.nsmallest(count, heights)[-1]:
             break
         optimum = _between(families[which], merit, low, high)
         report(len(families) + k, len(families) + len(brackets))
-        if not _new(own, optimum, symmetries) or _of_a_continuum(own, optimum):
+        if not _new(of_one_family, optimum, symmetries) or _of_a_continuum(of_one_family, optimum):
             continue
         if optimum.crank.bank_angle in (0, HALF):
             # Where banks can be exchanged, the crank of another family may be equivalent.
@@ -107,7 +107,7 @@ def of_one_angle(
                 continue
             at_ends.add(key)
         minima.append(optimum)
-        own.append(optimum)
+        of_one_family.append(optimum)
         heights.append(float(np.array(optimum.values) @ merit.weights))
     return minima
 
@@ -138,11 +138,11 @@ def _between(family: Family, merit: Objectives, low: float, high: float) -> Opti
     first, last = (float(each[0]) for each in _limits(family))
     weights = np.array(merit.weights)
     angle = _lowest(merit, weights, low, high)
-    own = _values(merit, np.radians([angle]))
+    merits = _values(merit, np.radians([angle]))
     beside = np.clip([angle - ASIDE, angle + ASIDE], first, last)
-    around = merit.evaluated(np.radians(beside[beside != angle])[:, np.newaxis])[0] - own
+    around = merit.evaluated(np.radians(beside[beside != angle])[:, np.newaxis])[0] - merits
     isolated = bool((np.abs(around).max(axis=1) > LEVEL).all())
-    if len(weights) > 1 and own[0] > LEVEL and (np.abs(around[:, 0]) > LEVEL).all():
+    if len(weights) > 1 and merits[0] > LEVEL and (np.abs(around[:, 0]) > LEVEL).all():
         # The later objectives draw it aside a little, unless the first vanishes.
         angle, isolated = _lowest(merit, weights * (weights == 1.0), *beside), True
     return _optimum_at(family, merit, np.radians([angle]), isolated=isolated)

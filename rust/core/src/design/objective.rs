@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Derived, Objective, ObjectiveFigure, ObjectiveQuantity};
 use crate::Complex64;
 use crate::numbers::ratio::SpeedRatio;
-use crate::readings::peaks::{Jet, polished};
+use crate::readings::peaks::{LocalParabola, polished};
 
 /// Crank angles to the shortest wave at which peaks are looked for.
 const SAMPLES: usize = 12;
@@ -213,7 +213,12 @@ impl ObjectiveFunction {
     }
 
     /// Half the square of a sum at a crank angle, or of its projection on an axis, and its derivatives.
-    fn squared(&self, phasors: &[WithSlopes], axis: Option<Complex64>, theta: f64) -> Jet {
+    fn squared(
+        &self,
+        phasors: &[WithSlopes],
+        axis: Option<Complex64>,
+        theta: f64,
+    ) -> LocalParabola {
         let mut jet = [Complex64::default(); 3];
         for (part, phasor) in self.parts.iter().zip(phasors) {
             let speed = part.speed as f64;

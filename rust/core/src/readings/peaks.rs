@@ -140,7 +140,7 @@ impl PeakFinder {
         }
         let needed = best - most_hidden;
         let mut rest = Vec::new();
-        let mut right: Option<(usize, Jet)> = None;
+        let mut right: Option<(usize, LocalParabola)> = None;
         for (k, &height) in heights.iter().enumerate() {
             let next = if k + 1 == heights.len() { 0 } else { k + 1 };
             if height <= needed && heights[next] <= needed {
@@ -258,7 +258,7 @@ pub fn largest_vectors(
 }
 
 /// Value and two derivatives by crank angle.
-pub(crate) type Jet = [f64; 3];
+pub(crate) type LocalParabola = [f64; 3];
 
 /// A vector of sums of orders, times a scale at which squares are in range.
 struct VectorSum<'a, const N: usize> {
@@ -269,7 +269,7 @@ struct VectorSum<'a, const N: usize> {
 
 impl<const N: usize> VectorSum<'_, N> {
     /// The squared length where `e^{iθ}` is given, and its derivatives.
-    fn squared(&self, unit: Complex64) -> Jet {
+    fn squared(&self, unit: Complex64) -> LocalParabola {
         let mut sums = [[0.0; 3]; N];
         let (mut power, mut at) = (Complex64::new(1.0, 0.0), 0);
         for (k, &wave) in self.finder.waves.iter().enumerate() {
@@ -428,7 +428,7 @@ impl Bounds {
 struct Interval {
     from: f64,
     width: f64,
-    ends: [Jet; 2],
+    ends: [LocalParabola; 2],
 }
 
 impl Interval {
@@ -440,7 +440,7 @@ impl Interval {
         self.ends[0][1] > 0.0 && self.ends[1][1] < 0.0
     }
 
-    fn halve(&self, at: &impl Fn(f64) -> Jet) -> [Self; 2] {
+    fn halve(&self, at: &impl Fn(f64) -> LocalParabola) -> [Self; 2] {
         let width = 0.5 * self.width;
         let middle = at(self.from + width);
         [
@@ -450,7 +450,7 @@ impl Interval {
     }
 
     /// Height of the maximum between the ends, from where a straight line of slopes is zero.
-    fn polish(&self, at: &impl Fn(f64) -> Jet) -> f64 {
+    fn polish(&self, at: &impl Fn(f64) -> LocalParabola) -> f64 {
         let [rise, fall] = [self.ends[0][1], self.ends[1][1]];
         let bracket = [self.from, self.from + self.width];
         let start = self.from + self.width * (rise / (rise - fall));
@@ -463,7 +463,7 @@ impl Interval {
 pub(crate) fn polished(
     [mut low, mut high]: [f64; 2],
     start: f64,
-    at: &impl Fn(f64) -> Jet,
+    at: &impl Fn(f64) -> LocalParabola,
 ) -> [f64; 2] {
     let (width, mut here, mut best) = (high - low, start, f64::NEG_INFINITY);
     for _ in 0..60 {

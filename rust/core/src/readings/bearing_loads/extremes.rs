@@ -196,7 +196,7 @@ fn turning_points(values: &Values) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Loads of a rod: places in [`RodLoads`].
+/// Loads of a rod: places in [`RodExtremes`].
 #[derive(Clone, Copy)]
 enum RodLoad {
     Crankpin,
@@ -207,9 +207,9 @@ enum RodLoad {
 }
 
 /// Values of each [`RodLoad`]: squared magnitudes of vectors.
-type RodLoads = [f64; 5];
+type RodExtremes = [f64; 5];
 
-fn of_rod(rod: &DrivenRod, theta: f64, beside: f64) -> RodLoads {
+fn of_rod(rod: &DrivenRod, theta: f64, beside: f64) -> RodExtremes {
     let forces = rod.forces_beside(theta, beside);
     let square = |[x, y]: [f64; 2]| x * x + y * y;
     let squares = [forces.crankpin, forces.wrist_pin].map(square);
@@ -243,7 +243,7 @@ impl BearingLoadsModel {
             let [pin, wrist, ..] = sampled.map(|range| range[1].sqrt());
             let rounding = LOAD_ROUNDING * rod.terms(pin);
             let factors = [2.0 * pin, 2.0 * wrist, 1.0, 1.0, 1.0];
-            let tolerances: RodLoads = array::from_fn(|n| {
+            let tolerances: RodExtremes = array::from_fn(|n| {
                 (LOAD_RESOLVED * largest(sampled[n])).max(rounding * factors[n])
             });
             let mut found = curves.extremes(sampled, &tolerances)?;

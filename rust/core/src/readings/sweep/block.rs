@@ -11,7 +11,7 @@ use crate::wrench::Planar;
 pub(super) const ROWS_SIDE_BY_SIDE: usize = 16;
 
 /// One value for each row of a block.
-type Lanes = [f64; ROWS_SIDE_BY_SIDE];
+type SideBySide = [f64; ROWS_SIDE_BY_SIDE];
 
 /// Sums of every order at up to [`ROWS_SIDE_BY_SIDE`] rows.
 pub(super) struct Block {
@@ -22,15 +22,15 @@ pub(super) struct Block {
 /// of torque and nothing).
 #[derive(Clone, Default)]
 struct Sums {
-    forward: [Lanes; 2],
-    backward_conj: [Lanes; 2],
-    bound: Lanes,
+    forward: [SideBySide; 2],
+    backward_conj: [SideBySide; 2],
+    bound: SideBySide,
 }
 
 /// Places of a block's rows in a column.
 trait Places {
     /// Numbers of a column at these places.
-    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes;
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> SideBySide;
 }
 
 /// One place for all rows.
@@ -44,14 +44,14 @@ struct EachPlace([usize; ROWS_SIDE_BY_SIDE]);
 
 impl Places for OnePlace {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> SideBySide {
         [columns.values[column * columns.length + self.0]; ROWS_SIDE_BY_SIDE]
     }
 }
 
 impl Places for PlacesFrom {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> SideBySide {
         let values = &columns.values[column * columns.length + self.0..][..ROWS_SIDE_BY_SIDE];
         let mut lanes = [0.0; ROWS_SIDE_BY_SIDE];
         lanes.copy_from_slice(values);
@@ -61,7 +61,7 @@ impl Places for PlacesFrom {
 
 impl Places for EachPlace {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> SideBySide {
         let mut lanes = [0.0; ROWS_SIDE_BY_SIDE];
         for (lane, place) in lanes.iter_mut().zip(&self.0) {
             *lane = columns.values[column * columns.length + place];
