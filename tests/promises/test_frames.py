@@ -52,7 +52,10 @@ def test_frames_begin_with_the_table(name: str) -> None:
 @every_result
 def test_text_and_html_show_every_frame_or_a_line(name: str) -> None:
     result = result_of(name)
-    text, html, frames = repr(result), result._repr_html_(), list(result.frames.values())
+    text, html, named = repr(result), result._repr_html_(), result.frames
+    frames = [table for name, table in named.items() if name not in named.for_programs]
+    for of_programs in named.for_programs:
+        assert named[of_programs].title not in text
     if isinstance(result, (cp.results.ClosedForm, cp.results.Exercise, cp.results.Explanation)):
         assert text.startswith(result.table.title)  # formulas, questions, sentences
         return

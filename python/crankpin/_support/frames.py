@@ -6,6 +6,7 @@ import csv
 import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 FIRST = "table"
 """Name of the first frame of every result."""
+PHASES = "phases"
+"""Name of the frame of amplitudes and phases, of results by order."""
 SHOWN = 30
 """Rows of a long table in text: a screen."""
 SHOWN_IN_NOTEBOOKS = 60
@@ -42,15 +45,17 @@ class Frames(Mapping[str, "Table"]):
     """Tables of a result by name, in the order in which they are shown.
 
     A table is computed when it is read; text and HTML are in the units that
-    :func:`crankpin.units` has set.
+    :func:`crankpin.units` has set. They leave out the frames for programs, which are shown by name.
     """
 
     def __init__(
         self,
         makers: Mapping[str, Callable[[], Table]],
         head: Callable[[int], Table | None] = lambda _: None,
+        for_programs: Mapping[str, Callable[[], Table]] = MappingProxyType({}),
     ) -> None:
-        self._makers, self._beginning = dict(makers), head
+        self._makers, self._beginning = {**makers, **for_programs}, head
+        self.for_programs = tuple(for_programs)
 
     def __getitem__(self, name: str) -> Table:
         """Return the table of a name, or raise an InputError."""
@@ -69,7 +74,7 @@ class Frames(Mapping[str, "Table"]):
 
     def _shown(self, rows: int | None) -> Iterator[Table]:
         """Yield the tables; of successive tables that count the same loads the last states them."""
-        tables = [self._first(name, rows) for name in self]
+        tables = [self._first(name, rows) for name in self if name not in self.for_programs]
         for table, below in zip(tables, [*tables[1:], None], strict=True):
             once = below is not None and below.loads == table.loads
             yield changed(table, loads="") if once else table
@@ -101,7 +106,12 @@ class Framed:
 
     def _frames(self, **further: Callable[[], Table]) -> Frames:
         """Return the table, and further frames by name."""
-        return Frames({FIRST: lambda: self.table} | further, self._beginning)
+        return Frames({FIRST: lambda: self.table} | further, self._beginning, self._for_programs)
+
+    @property
+    def _for_programs(self) -> Mapping[str, Callable[[], Table]]:
+        """Frames that text and HTML leave out: name → table."""
+        return MappingProxyType({})
 
     def _beginning(self, rows: int) -> Table | None:
         """Return the first rows of a long table, computed alone; None where all are computed."""

@@ -23,7 +23,7 @@ Label: TypeAlias = "str | Sequence[object]"
 
 COUNTED = (
     "order", "cylinder", "n_shafts", "n_cylinders", "rpm", "bank_angle_deg", "rod_ratio",
-    "pin_offset", "load", "theta_deg", "after/before", "at most",
+    "pin_offset", "load", "theta_deg", "phase_deg", "after/before", "at most",
 )  # fmt: skip
 """Columns without unit in tables whose rows have units."""
 OF_ROWS = (*COUNTED, "set", "piston", "plane", "design", "speed", "z")

@@ -176,6 +176,10 @@ class ByOrder(Keyed, Shaking["np.complex128", "NDArray[np.float64]", Value], Gen
         """Engines of which this is a result."""
         raise NotImplementedError
 
+    @property
+    def _of_engines(self) -> tuple[Engine, ...]:
+        return self._engines
+
     def _with_request(self, request: Request) -> Self:
         """Return the same result by another request."""
         raise NotImplementedError

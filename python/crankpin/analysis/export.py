@@ -187,10 +187,7 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
         parts = np.moveaxis(values, -1, 0) if axes else values[np.newaxis]
         names = axes if "component" in quantity.dims else kind.components[-len(parts) :]
         return {name: {"value": part} for name, part in zip(names, parts, strict=True)}
-    (component, *_) = kind.components
-    by_name = {
-        "z" if " " in component else component: values
-    }  # a component of one word is its own name
+    by_name = dict(zip(_own_components(quantity), [values], strict=True))
     if axes:
         by_name = dict(zip(axes, np.moveaxis(values, -1, 0), strict=True))
     if "axis" in quantity.dims and kind.planar:
@@ -199,6 +196,82 @@ def components(quantity: Quantity) -> Mapping[str, Mapping[str, NDArray[np.float
         name: {"real": part.real, "imag": part.imag, "peak": np.abs(part)}
         for name, part in by_name.items()
     }
+
+
+def phases(quantities: Iterable[Quantity], title: str, note: str, loads: str) -> Table:
+    """Return amplitude and phase of each component of phasors, order by order.
+
+    Rows are in the sequence of points, then orders, then quantities and their components.
+    """
+    parts: list[tuple[Quantity, str, NDArray[Any]]] = []
+    for quantity in quantities:
+        phasors = np.asarray(quantity)
+        if "order" not in quantity.dims or phasors.dtype.kind != "c":
+            continue
+        if quantity.dims[-1] in COMPONENT_DIMS:
+            names, values = quantity.coords[quantity.dims[-1]], np.moveaxis(phasors, -1, 0)
+        else:
+            names, values = _own_components(quantity), phasors[np.newaxis]
+        parts += zip([quantity] * len(names), names, values, strict=True)
+    coords = union([quantity for quantity, *_ in parts])
+    coords = {name: values for name, values in coords.items() if name not in COMPONENT_DIMS}
+    fitting(coords, *((quantity.dims[: values.ndim], 64) for quantity, _, values in parts))
+    # Place of each row along each dimension; −1 where its quantity has none.
+    rows: dict[str, NDArray[np.intp]] = {}
+    for name in coords:
+        places = [np.empty(0, dtype=np.intp)]
+        for quantity, _, values in parts:
+            dims, along = quantity.dims[: values.ndim], np.full(values.shape, -1)
+            if name in dims:
+                along = np.indices(values.shape)[dims.index(name)]
+            places.append(along.ravel())
+        rows[name] = np.concatenate(places)
+    shared = [d for d in coords if all(d in quantity.dims for quantity, *_ in parts)]
+    others = [d for d in coords if d not in shared]
+    sizes = [values.size for *_, values in parts]
+    names_of = list(dict.fromkeys(quantity.name for quantity, *_ in parts))
+    of_rows = np.repeat([names_of.index(quantity.name) for quantity, *_ in parts], sizes)
+    keys = [*(rows[d] for d in shared), of_rows, *(rows[d] for d in others)]
+    sequence = np.lexsort(keys[::-1])
+
+    def repeated(texts: Iterable[str]) -> NDArray[Any]:
+        return np.repeat(column([*texts]), sizes)[sequence]
+
+    def coordinate(name: str) -> Column:
+        places = rows[name][sequence]
+        values = column(coords[name])[places]
+        if (places < 0).any():
+            none = "" if values.dtype.kind == "O" else None
+            cells = zip(values.tolist(), places.tolist(), strict=True)
+            return Column(name, tuple(none if k < 0 else value for value, k in cells), digits=10)
+        return Column(name, values, digits=10)
+
+    whole = np.concatenate([values.ravel() for *_, values in parts] or [np.empty(0)])[sequence]
+    pairs = zip(whole.tolist(), np.angle(whole, deg=True).tolist(), strict=True)
+    angles = tuple(angle if phasor else None for phasor, angle in pairs)
+    units_of = repeated(_unit_of(quantity, component) for quantity, component, _ in parts)
+    columns = (
+        *map(coordinate, shared),
+        Column("quantity", repeated(quantity.name for quantity, *_ in parts)),
+        *map(coordinate, others),
+        Column("component", repeated(component for _, component, _ in parts)),
+        Column("amplitude", np.abs(whole)),
+        Column("phase_deg", angles, digits=6),
+        Column("unit", units_of),
+    )
+    return Table(title, columns, note, loads, tuple(units_of))
+
+
+def _own_components(quantity: Quantity) -> tuple[str, ...]:
+    """Return the name of the component of a quantity without axes, in long form."""
+    (component, *_) = quantity.kind.components
+    return ("z" if " " in component else component,)  # one of one word is its own name
+
+
+def _unit_of(quantity: Quantity, component: str) -> str:
+    """Return the unit of a component: of a load those of its forces and of its moments."""
+    force, _, moment = quantity.unit.partition(", ")
+    return moment if moment and component.startswith("M") else force
 
 
 def long(quantities: Sequence[Quantity], loads: str, title: str = "Long form") -> Table:

@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support import units as unit_names
-from crankpin._support.frames import Tabled, in_units
+from crankpin._support.frames import PHASES, Tabled, in_units
 from crankpin._support.quantities import COMPONENTS_OF_LOADS, QUANTITIES, kind_of, parts_of
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from crankpin._support.quantities import Kind
     from crankpin._support.tables import Table
     from crankpin.analysis.request import Request
+    from crankpin.model.engine import Engine
 
 
 class Labelled(Tabled):
@@ -130,6 +131,47 @@ class Labelled(Tabled):
     def _table_of(self, quantity: Quantity) -> Table:
         """Return the table of a quantity."""
         return export.long([quantity], quantity.loads_counted, quantity.words)
+
+    # --- amplitudes and phases ------------------------------------------------------------------
+
+    @property
+    def _for_programs(self) -> Mapping[str, Callable[[], Table]]:
+        """Amplitudes and phases by order, where quantities are phasors."""
+        are_phasors = any(
+            not kind.real and "order" not in kind.without for kind in self._registry.values()
+        )
+        if "order" in self._along and are_phasors and getattr(self, "order", None) is None:
+            return MappingProxyType({PHASES: self._phases})
+        return super()._for_programs
+
+    def _phases(self) -> Table:
+        """Return amplitude and phase of each component, order by order: for other programs."""
+        engines = self._of_engines
+        title, rpm = "Amplitudes and phases", getattr(self, "rpm", None)
+        if len(engines) == 1:
+            at = f" {labels.at_speed(rpm)}" if isinstance(rpm, float) else ""
+            title = f"{labels.name_of(engines[0])}{at}: {title.lower()}"
+        of = [self._quantity(name) for name in self._names]
+        return export.phases(of, title, self._sense_of_phases(), self.loads_counted)
+
+    @property
+    def _of_engines(self) -> tuple[Engine, ...]:
+        """Engines of which this is a result."""
+        of: Any = self
+        for name in ("result", "before", "powertrain"):
+            of = getattr(of, name, of)
+        return (of.engine,) if hasattr(of, "engine") else ()
+
+    def _sense_of_phases(self) -> str:
+        """Return sign and reference of the phases, in words."""
+        note = "Order n is amplitude·cos(n·θ + phase_deg), θ the crank angle in its sense of turn"
+        turned = "bank_angle_deg" in self.dims
+        first = {float(engine.tdc_deg[0]) for engine in self._of_engines}
+        if turned or len(first) != 1:
+            return f"{note}."
+        (tdc,) = first
+        at = f"{tdc:.10g}°" if tdc else "0"
+        return f"{note}; cylinder 1 is at top dead centre at θ = {at}."
 
     # --- dimensions -----------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs
-from crankpin._support.frames import FIRST, Frames
+from crankpin._support.frames import FIRST, PHASES, Frames
 from crankpin.analysis.mounts.design_mounts import KINDS, design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.arguments import MOST_ROWS
@@ -88,7 +88,17 @@ def _powertrain(call: Given) -> Powertrain:
     "--controls --units",
     option(
         "--frame",
-        choices=(FIRST, "strain", "subframe", "axes", "static", "robustness", "loads", "power"),
+        choices=(
+            FIRST,
+            "strain",
+            "subframe",
+            "axes",
+            "static",
+            "robustness",
+            "loads",
+            "power",
+            PHASES,
+        ),
     ),
     "--csv --plot",
     example="mounts car.toml --rpm 600:6000:20 --plot run-up.png",

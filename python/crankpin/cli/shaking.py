@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, tables, units
-from crankpin._support.frames import FIRST, Frames
+from crankpin._support.frames import FIRST, PHASES, Frames
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
@@ -41,7 +41,9 @@ HALF_ORDERS = (
     "peaks of force, moment and torque at one speed, order by order",
     "name --rpm --orders --rtol --quantity --reference-z --about --spectrum",
     option("--phases", action="store_true", help="print the phase beside the peak along each axis"),
-    "--units --csv --plot",
+    "--units",
+    option("--frame", choices=(FIRST, PHASES)),
+    "--csv --plot",
     example="balance v6-60 --rpm 6000 --plot v6.png",
 )
 def _balance(call: Given) -> Shown:
@@ -61,20 +63,26 @@ def _balance(call: Given) -> Shown:
         table = in_short(
             table, balance, *(n for n in balance._request.quantities if n != "crank_torque")
         )
-    return Shown(only(table), balance, {"quantity": call.quantity([engine])}, note=note)
+    frames = Frames({FIRST: lambda: table}, for_programs={PHASES: balance._phases})
+    return Shown(frames, balance, {"quantity": call.quantity([engine])}, note=note)
 
 
 def _with_phases(balance: Balance) -> Table:
     """Return the table of a balance with the phase of each component beside its peak."""
     keys, *peaks = balance.table.columns
     names = [name for name in balance._request.quantities if name != "crank_torque"]
-    parts = [np.reshape(balance.read(name, "values"), (len(balance.orders), -1)) for name in names]
-    phasors = dict(zip(balance.orders, np.concatenate(parts, axis=1), strict=True))
+    of_components = [
+        (QUANTITIES[name].symbols[k].strip("|"), name, component)
+        for name in names
+        for k, component in enumerate(QUANTITIES[name].axes or ("z",))
+    ]
+    rows = balance.frames[PHASES]
+    places = zip(*(rows[name].values for name in ("order", "quantity", "component")), strict=True)
+    angles = dict(zip(places, rows["phase_deg"].values, strict=True))
     columns = [keys]
-    for k, peak in enumerate(peaks):
-        of_rows = [phasors[key][k] if key in phasors else 0.0 for key in keys.values]
-        phases = tuple(float(np.angle(phasor, deg=True)) if phasor else None for phasor in of_rows)
-        columns += [peak, Column(f"{peak.name.strip('|')} phase", phases, "°", digits=4)]
+    for peak, (symbol, *component) in zip(peaks, of_components, strict=True):
+        phases = tuple(angles.get((key, *component)) for key in keys.values)
+        columns += [peak, Column(f"{symbol} phase", phases, "°", digits=4)]
     return changed(balance.table, columns=tuple(columns))
 
 
@@ -110,7 +118,9 @@ def _explain(call: Given) -> str:
         "--quantity",
         help="quantity of the table (default: moment, or force if all cylinders are at one z)",
     ),
-    "--reference-z --spectrum --units --csv --plot",
+    "--reference-z --spectrum --units",
+    option("--frame", choices=(FIRST, PHASES)),
+    "--csv --plot",
     example="sweep ijesc-v6 --rpm 5000 --bank-angle 10:170:10 --plot v6.png",
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number. Write one\n"
     "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
@@ -141,6 +151,8 @@ def _sweep(call: Given) -> Shown:
     )
     frames, note = _frames_of(result, call)
     note = units.joined("", [note, left_out(result)]) if chosen["orders"] == "auto" else ""
+    frames = Frames({name: partial(frames.__getitem__, name) for name in frames},
+                    for_programs={PHASES: result._phases})  # fmt: skip
     drawn = {"quantity": call.quantity(result.engines)}
     return Shown(frames, result, drawn, note=note)
 
