@@ -503,7 +503,7 @@ class CycleGrid:
         self,
         torque: _Real,
         load: _Real,
-        engine: Engine | None,
+        engines: list[Engine],
         rpm: float,
         inertia: float | None,
         irregularity: float,

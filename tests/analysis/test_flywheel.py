@@ -585,3 +585,75 @@ def test_further_loads_on_the_crank_drive_it_too(strokes: Literal[2, 4]) -> None
     gas = fired.waveform(2000, driven.theta_deg).read("crank_torque.gas")
     np.testing.assert_allclose(driven.torque, gas + added, atol=1e-9 * np.abs(gas).max())
     assert driven.mean_torque == pytest.approx(alone.mean_torque - 12.0, rel=1e-9)
+
+
+# --- machines on the crank ------------------------------------------------------------------------
+
+
+def compressor() -> cp.Engine:
+    """Two opposed throws, double acting, of unlike masses."""
+    heavy = cp.Cylinder(0.04, 0.2, 5.0, bore=0.1)
+    throws = [heavy, heavy.replace(reciprocating_mass=4.0)]
+    bare = cp.Engine.opposed_throws(throws, throws_deg=[0, 180], spacing=0.32)
+    head = cp.Cycle.compressor(heavy, discharge=4e5)
+    end = cp.Cycle.compressor(heavy, discharge=4e5, end="crank")
+    return bare.with_cycle(head, crank_end=end, rod_diameter=0.02)
+
+
+def test_a_motor_with_a_compressor_is_the_compressor_on_even_torque() -> None:
+    machine = compressor()
+    alone = cp.flywheel(machine, rpm=600, irregularity=0.02)
+    driven = cp.flywheel(None, rpm=600, irregularity=0.02, load_torque=machine)
+    # Sums of the same torques in another order.
+    assert driven.inertia == pytest.approx(alone.inertia, rel=1e-11)
+    np.testing.assert_allclose(driven.speed_rpm, alone.speed_rpm, rtol=1e-12)
+    np.testing.assert_allclose(driven.moving_inertia, alone.moving_inertia, rtol=1e-15)
+    assert driven.mean_torque == pytest.approx(-alone.mean_torque, rel=1e-12)
+
+
+def test_two_alike_on_one_crank_turn_as_one_with_half_the_flywheel() -> None:
+    one = cp.flywheel(TWIN, rpm=900, inertia=0.12)
+    both = cp.flywheel(TWIN, rpm=900, inertia=0.24, load_torque=[TWIN])
+    np.testing.assert_allclose(both.speed_rpm, one.speed_rpm, rtol=1e-12)
+    assert both.energy == pytest.approx(2.0 * one.energy, rel=1e-10)
+
+
+def test_an_engine_and_its_compressor_solve_the_equation_of_motion() -> None:
+    """Pistons and rods of both count, and the torque of both."""
+    machine = compressor()
+    found = cp.flywheel(TWIN, rpm=900, inertia=0.12, load_torque=machine)
+    pistons = [
+        rederived.Piston(
+            cylinder.reciprocating_mass,
+            cylinder.crank_radius,
+            cylinder.rod_length,
+            cylinder.pin_offset,
+            cylinder.rod_inertia_excess,
+            np.radians(tdc),
+        )
+        for engine in (TWIN, machine)
+        for cylinder, tdc in zip(engine.cylinders, engine.tdc_deg.tolist(), strict=True)
+    ]
+    places = np.append(np.arange(0, len(found.theta_deg) - 1, 200), len(found.theta_deg) - 1)
+    # Linear between hundredths of a degree: 1e-7 of the largest torque.
+    table = np.linspace(0.0, 720.0, 72_001)
+    taken = machine.waveform(900, theta_deg=table).read("crank_torque.gas")
+    torque = gas(table) + taken
+    torque -= np.mean(torque[:-1])
+    expected = rederived.speeds(
+        lambda angle: float(np.interp(math.degrees(angle) % 720.0, table, torque)),
+        0.12,
+        pistons,
+        900 * np.pi / 30,
+        np.radians(found.theta_deg[places]),
+    )
+    speed = found.speed_rpm[places] * np.pi / 30
+    np.testing.assert_allclose(speed[:-1], expected, rtol=10 * SOLVER)
+    # The compressor matters: with the twin alone speeds are others.
+    alone = cp.flywheel(TWIN, rpm=900, inertia=0.12)
+    assert abs(alone.irregularity - found.irregularity) > 0.01
+
+
+def test_a_machine_without_pressure_is_no_load() -> None:
+    with pytest.raises(cp.InputError, match=r"^load_torque = .*with_cycle"):
+        cp.flywheel(TWIN, rpm=900, inertia=0.12, load_torque=compressor().with_cycle(None))

@@ -152,6 +152,13 @@ def test_flywheels_without_an_engine(capsys: CAPTURE, tmp_path: Path) -> None:
     rows = "\n".join(f"{a},{t}" for a, t in zip(theta, torque, strict=True))
     table.write_text(f"angle [deg],torque [N·m]\n{rows}\n")
     wheel = cp.flywheel((theta, torque), 150, load_torque="5000 + 500 sin θ", inertia=80)
+    machine = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45, bore=0.086))
+    machine = machine.with_cycle(cp.Cycle.example())
+    machine.save(tmp_path / "machine.toml")
+    path = tmp_path / "machine.toml"
+    line = f"flywheel {path} --rpm 800 --inertia 0.3 --load {path}"
+    both = cp.flywheel(machine, 800, load_torque=machine, inertia=0.3)
+    assert printed(capsys, line).strip() == str(both)
     line = f"flywheel --drive {table} --load 5000+500sin(θ) --rpm 150 --inertia 80"
     assert printed(capsys, line).strip() == str(wheel)
     work = cp.stroke_load(500, duration_deg=40, start_deg=10, period_deg=720)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -52,7 +52,7 @@ def flywheel(
     *,
     inertia: float | None = None,
     irregularity: float | None = None,
-    load_torque: Curve | Sequence[Curve] | None = None,
+    load_torque: Engine | Curve | Sequence[Engine | Curve] | None = None,
     period_deg: float | None = None,
 ) -> Flywheel:
     """Return the speed over a cycle with a flywheel, or the flywheel that keeps it even.
@@ -80,10 +80,12 @@ def flywheel(
     irregularity : float, optional
         Irregularity to find the moment of inertia for, in place of ``inertia``: largest less
         smallest speed, over the mean speed.
-    load_torque : callable, pair of array_like, str or sequence of these, optional
+    load_torque : Engine, callable, pair of array_like, str or sequence of these, optional
         Torque of the load over crank angle, as ``drive``, or of several loads; by default constant.
         At a constant mean speed its mean is that of the drive: only its variation about its mean
-        counts. :func:`stroke_load` is that of a punch.
+        counts. :func:`stroke_load` is that of a punch. An engine is a machine on the same crank,
+        such as a compressor with its cycle, which takes the torque that it would give; its pistons
+        and rods count in J.
     period_deg : float, optional
         Period of a turning-moment diagram, degrees; by default that of the angles, and 720 of a
         function.
@@ -144,14 +146,19 @@ def flywheel(
             "inertia of pistons and rods that varies; give the torque of the gas",
         )
     inputs.only_one_of(inertia=inertia, irregularity=irregularity)
+    speed = inputs.number("rpm", rpm)
     engine = drive if isinstance(drive, EngineData) else None
     if engine is not None:
-        torque = _of_engine(engine, inputs.number("rpm", rpm), period_deg)
+        if period_deg is not None:
+            hint = "the period is that of the engine's cycle; leave it out"
+            raise inputs.rejected("period_deg", period_deg, hint)
+        torque = _of_engine("drive", engine, speed)
         checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
         torque = _even(period_deg) if drive is None else _diagram("drive", drive, period_deg)
     curves = [] if load_torque is None else _curves(load_torque)
-    loads = [_diagram("load_torque", curve, None) for curve in curves]
+    loads = [_of_load(curve, speed) for curve in curves]
+    machines = [*filter(None, [engine]), *(one for one in curves if isinstance(one, EngineData))]
     if drive is None and not loads:
         raise inputs.rejected("load_torque", None, "give the load of a motor of even torque")
     periods = [against.period for against in loads if against.period]
@@ -171,8 +178,8 @@ def flywheel(
     found = grid.speed(
         of_drive(nodes),
         of_loads(nodes),
-        None if engine is None else engine._core,
-        inputs.number("rpm", rpm),
+        [machine._core for machine in machines],
+        speed,
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
@@ -180,7 +187,7 @@ def flywheel(
     of_one_rpm = _core.angular_speed(1.0)
     return Flywheel(
         engine,
-        inputs.number("rpm", rpm),
+        speed,
         found["inertia"],
         found["irregularity"],
         found["energy"],
@@ -399,14 +406,19 @@ class _Diagram(NamedTuple):
     """Angles at which it bends or jumps."""
 
 
-def _of_engine(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
+def _of_load(load: object, rpm: float) -> _Diagram:
+    """Return the torque that a load takes."""
+    if not isinstance(load, EngineData):
+        return _diagram("load_torque", load, None)
+    giving = _of_engine("load_torque", cast("Engine", load), rpm)
+    return giving._replace(at=lambda theta: -giving.at(theta))
+
+
+def _of_engine(name: str, engine: Engine, rpm: float) -> _Diagram:
     """Return the torque of an engine's gas pressure and periodic loads on the crank."""
     if not (engine.fired or engine.loads):
         hint = "has no driving torque; give it gas pressure with engine.with_cycle(…)"
-        raise inputs.rejected("drive", labels.name_of(engine), hint)
-    if period_deg is not None:
-        hint = "the period is that of the engine's cycle; leave it out"
-        raise inputs.rejected("period_deg", period_deg, hint)
+        raise inputs.rejected(name, labels.name_of(engine), hint)
     # Where pressure jumps or bends, at the firing of each cylinder.
     with suppressed():
         fired = [(start, Cycle._of(core)) for start, core in engine._core.face_cycles]
@@ -437,13 +449,17 @@ def _even(period_deg: object) -> _Diagram:
 
 def _curves(load: object) -> list[object]:
     """Return the loads: one, or those of a list."""
-    if callable(load) or isinstance(load, str):
+    if callable(load) or isinstance(load, (str, EngineData)):
         return [load]
     curves = inputs.items("load_torque", load, CURVE_HINT)
 
     def is_curve(item: Any) -> bool:  # noqa: ANN401 - whatever a list has
         pair = isinstance(item, (list, tuple)) and len(item) == 2
-        return callable(item) or isinstance(item, str) or (pair and all(np.ndim(i) for i in item))
+        return (
+            callable(item)
+            or isinstance(item, (str, EngineData))
+            or (pair and all(np.ndim(i) for i in item))
+        )
 
     return curves if curves and all(map(is_curve, curves)) else [load]
 

@@ -22,6 +22,8 @@ from crankpin.cli.options import OPTIONS, command, keyword, keywords, option, re
 from crankpin.cli.outputs import Shown, only
 from crankpin.model import table_files
 from crankpin.model.cylinder import slider_crank_harmonics
+from crankpin.model.engine import Engine
+from crankpin.model.engine_files import ENGINE_ENDINGS
 from crankpin.model.table_files import FILE_HINT, TABLE_ENDINGS
 
 if TYPE_CHECKING:
@@ -88,8 +90,9 @@ def _compare(call: Given) -> Shown:
         metavar="TORQUE",
         action="append",
         group=DIAGRAM,
-        help="torque of a load, as --drive; once for each. Without an engine or --drive a motor "
-        "drives it evenly",
+        help="torque of a load, as --drive, or the engine file of a machine on the same crank, "
+        "such as a compressor; once for each. Without an engine or --drive a motor drives it "
+        "evenly",
     ),
     option(
         "--stroke-load",
@@ -113,7 +116,7 @@ def _compare(call: Given) -> Shown:
 def _flywheel(call: Given) -> Shown:
     figures, areas = call.keywords(flywheel), call.keywords(turning_moment_areas)
     rpm, note = call.number("--rpm", "rpm"), ""
-    loads = [_curve("--load", text) for text in call.text("--load") or ()]
+    loads = [_load(text) for text in call.text("--load") or ()]
     loads += [_stroke_load(call, text) for text in call.text("--stroke-load") or ()]
     wheel: Flywheel | TurningMomentAreas
     others = ["--drive", "--load", "--stroke-load"] if "areas" in areas else []
@@ -157,6 +160,12 @@ def _curve(flag: str, text: str) -> Any:  # noqa: ANN401 - a formula, or angles 
     if not len(theta):
         raise rejected(flag, text, "has no rows of numbers")
     return theta, torque
+
+
+def _load(text: str) -> Any:  # noqa: ANN401 - an engine, or as a curve
+    """Return the machine of an engine file, or what drives alike."""
+    is_engine = Path(text).suffix.lower() in ENGINE_ENDINGS
+    return Engine.load(text) if is_engine else _curve("--load", text)
 
 
 def _stroke_load(call: Given, text: str) -> Any:  # noqa: ANN401 - angles and torques

@@ -232,7 +232,7 @@ proptest! {
         let (grid, cancel) = (CycleGrid::new(360.0, &[], &Cancel::new()).unwrap(), Cancel::new());
         let none = vec![0.0; grid.nodes_deg.len()];
         let drive = CrankDrive {
-            grid: &grid, torque: &none, load: &none, engine: Some(&engine), rpm: REQUEST.rpm,
+            grid: &grid, torque: &none, load: &none, engines: &[&engine], rpm: REQUEST.rpm,
         };
         let run = drive.speed(FlywheelTarget::Inertia(1e6), &cancel).unwrap();
         let exact = waveform::exact(&engine, &REQUEST, &grid.edges_deg, &cancel).unwrap();

@@ -164,17 +164,17 @@ impl CycleGrid {
         py: Python<'py>,
         torque: PyReadonlyArray1<'py, f64>,
         load: PyReadonlyArray1<'py, f64>,
-        engine: Option<&Bound<'py, Engine>>,
+        engines: Vec<Bound<'py, Engine>>,
         rpm: f64,
         inertia: Option<f64>,
         irregularity: f64,
     ) -> PyResult<Fluctuation<'py>> {
         let evenness =
             inertia.map_or(FlywheelTarget::Irregularity(irregularity), FlywheelTarget::Inertia);
-        let engine = engine.map(|engine| &*engine.get().0);
+        let engines: Vec<_> = engines.iter().map(|engine| &*engine.get().0).collect();
         let (torque, load) = (torque.as_slice()?, load.as_slice()?);
         let found = interrupt::run(py, |cancel| {
-            let drive = CrankDrive { grid: &self.0, torque, load, engine, rpm };
+            let drive = CrankDrive { grid: &self.0, torque, load, engines: &engines, rpm };
             drive.speed(evenness, cancel)
         })?;
         Ok(Fluctuation {

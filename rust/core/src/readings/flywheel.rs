@@ -125,8 +125,9 @@ pub struct CrankDrive<'a> {
     pub torque: &'a [f64],
     /// Torque of the load there, N·m, of which the variation about its mean counts.
     pub load: &'a [f64],
-    /// Engine whose pistons and rods move; none for a constant moment of inertia.
-    pub engine: Option<&'a Engine>,
+    /// Engines on the crank whose pistons and rods move, of drive and loads; none for a constant moment of
+    /// inertia.
+    pub engines: &'a [&'a Engine],
     /// Mean crank speed: turns over the time that they take.
     pub rpm: f64,
 }
@@ -372,8 +373,8 @@ impl WorkCurve {
                 limits::finite(argument, value)?;
             }
         }
-        let [values, slopes] = moving(drive.engine, edges, cancel)?;
-        let inside = moving(drive.engine, &drive.grid.nodes_deg, cancel)?;
+        let [values, slopes] = moving(drive.engines, edges, cancel)?;
+        let inside = moving(drive.engines, &drive.grid.nodes_deg, cancel)?;
         let period = edges[edges.len() - 1].to_radians();
         let width = |k: usize| drive.grid.width(k);
         let means = [drive.torque, drive.load].map(|values| drive.grid.mean(values));
@@ -522,8 +523,9 @@ pub fn mean_inertias(engine: &Engine, cancel: &Cancel) -> Result<Vec<f64>> {
         let own = |load: &&Load| load.place.origin.cylinder() == Some(i);
         let list = loads.list.iter().filter(own).copied().collect();
         let own = Scene { list, ..(*loads).clone() };
-        let [inertia, _] = moving_of(&own, &grid.nodes_deg, cancel)?;
-        Ok(grid.mean(&inertia))
+        let mut sums = [memory::zeros(grid.nodes_deg.len())?, memory::zeros(grid.nodes_deg.len())?];
+        add_moving(&own, &grid.nodes_deg, &mut sums, cancel)?;
+        Ok(grid.mean(&sums[0]))
     };
     (0..engine.stations().len()).map(of_cylinder).collect()
 }
@@ -571,26 +573,30 @@ pub fn swing_deg(theta_deg: &[f64], speed: &[f64]) -> f64 {
     high - low
 }
 
-/// Moment of inertia of an engine's pistons and rods as seen from the crank, and its slope per radian.
-fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
-    let Some(engine) = engine else {
-        return Ok([memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?]);
-    };
-    let loads = Scene::of(engine, None)?;
-    moving_of(&loads, edges_deg, cancel)
+/// Moment of inertia of engines' pistons and rods as seen from the crank, and its slope per radian.
+fn moving(engines: &[&Engine], edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
+    let mut sums = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
+    for engine in engines {
+        let loads = Scene::of(engine, None)?;
+        add_moving(&loads, edges_deg, &mut sums, cancel)?;
+    }
+    Ok(sums)
 }
 
-/// The same of these loads.
-fn moving_of(loads: &Scene, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
-    let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
+/// Adds those of a scene's loads.
+fn add_moving(
+    loads: &Scene,
+    edges_deg: &[f64],
+    [values, slopes]: &mut [Vec<f64>; 2],
+    cancel: &Cancel,
+) -> Result<()> {
     let kinematics = Kinematics::new(loads);
     for part in parts(0..edges_deg.len(), BLOCK) {
         cancel.check()?;
         let angles = CrankAngles::new(&edges_deg[part.clone()])?;
-        let [values, slopes] = &mut found;
         kinematics.add_inertia(&angles, [&mut values[part.clone()], &mut slopes[part]]);
     }
-    Ok(found)
+    Ok(())
 }
 
 #[cfg(test)]
@@ -613,11 +619,11 @@ mod tests {
     fn run(
         grid: &CycleGrid,
         torque: &[f64],
-        engine: Option<&Engine>,
+        engines: &[&Engine],
         how: FlywheelTarget,
     ) -> SpeedFluctuation {
         let load = vec![0.0; torque.len()];
-        let drive = CrankDrive { grid, torque, load: &load, engine, rpm: 300.0 };
+        let drive = CrankDrive { grid, torque, load: &load, engines, rpm: 300.0 };
         drive.speed(how, &Cancel::new()).unwrap()
     }
 
@@ -634,7 +640,7 @@ mod tests {
         // ∫A sin 2θ dθ swings by A. ω² = ω₀² − (A/J) cos 2θ, of which √(1 ± A/(Jω₀²)) are the ends.
         let grid = grid(&[]);
         let torque = at(&grid, |theta| 100.0 + 40.0 * (2.0 * theta).sin());
-        let found = run(&grid, &torque, None, FlywheelTarget::Inertia(2.0));
+        let found = run(&grid, &torque, &[], FlywheelTarget::Inertia(2.0));
         // Cubics over half a degree: (2·0.0087)⁴/384 of what waves, 2.4e-10.
         assert!((found.energy - 40.0).abs() < 40.0 * 3e-10, "{}", found.energy);
         assert!((found.mean_torque - 100.0).abs() < 1e-10);
@@ -658,7 +664,7 @@ mod tests {
                 &grid,
                 |theta| if (100.1..220.1).contains(&theta.to_degrees()) { 30.0 } else { 15.0 },
             );
-        let found = run(&grid, &torque, None, FlywheelTarget::Inertia(1.0));
+        let found = run(&grid, &torque, &[], FlywheelTarget::Inertia(1.0));
         assert!((found.energy - 10.0 * 2.0 * PI / 3.0).abs() < 1e-11, "{}", found.energy);
         assert!((found.acceleration - 10.0).abs() < 1e-11);
     }
@@ -670,7 +676,7 @@ mod tests {
             let found = run(
                 &grid,
                 &vec![0.0; grid.nodes_deg.len()],
-                Some(&engine),
+                &[&engine],
                 FlywheelTarget::Inertia(0.05),
             );
             let energies: Vec<f64> = found
@@ -699,8 +705,8 @@ mod tests {
         let (grid, engine) = (grid(&[]), single(0.0));
         let torque = at(&grid, |theta| 20.0 + 30.0 * theta.sin() - 8.0 * (3.0 * theta).cos());
         for wanted in [0.3, 0.05, 1e-4, 6e-5, 1e-5, 3.7e-6, 1e-7, 1e-9] {
-            let fit = run(&grid, &torque, Some(&engine), FlywheelTarget::Irregularity(wanted));
-            let again = run(&grid, &torque, Some(&engine), FlywheelTarget::Inertia(fit.inertia));
+            let fit = run(&grid, &torque, &[&engine], FlywheelTarget::Irregularity(wanted));
+            let again = run(&grid, &torque, &[&engine], FlywheelTarget::Inertia(fit.inertia));
             assert!(
                 (again.irregularity / wanted - 1.0).abs() < 1e-11_f64.max(WORK_ROUNDING / wanted)
             );
@@ -714,7 +720,7 @@ mod tests {
         let torque = at(&grid, |theta| 1e4 * theta.sin());
         let load = vec![0.0; torque.len()];
         let drive =
-            CrankDrive { grid: &grid, torque: &torque, load: &load, engine: None, rpm: 300.0 };
+            CrankDrive { grid: &grid, torque: &torque, load: &load, engines: &[], rpm: 300.0 };
         for how in [
             FlywheelTarget::Inertia(0.1),
             FlywheelTarget::Inertia(0.0),
