@@ -410,7 +410,7 @@ class Powertrain(Framed, Input):
         ... ]
         >>> p = cp.Powertrain(cp.Engine.preset("single"), body, mounts)
         >>> f = p.sweep(range(3000, 7001, 100), factor=[0, 0.5, 1])
-        >>> f.force.dims, f.force.shape, 0.5 < f.best() < 1
+        >>> f.force.dims, f.force.shape, 0 < f.best() < 0.1
         (('factor', 'rpm', 'receiver'), (3, 41, 1), True)
         """
         return swept.sweep(
