@@ -64,12 +64,12 @@ class MountSweep(Labelled):
     _registry: ClassVar[Mapping[str, Kind]] = AT_RECEIVERS
 
     def __post_init__(self) -> None:
+        request = check_request(self._request, "Powertrain.sweep")
         factors = self.factor
         if factors is None:
             engines = list(self.engines.values())
         else:
             engines = [with_bob_weights(self.powertrain.engine, each) for each in factors.tolist()]
-        request = check_request(self._request, "Powertrain.sweep")
         responses = [self._response(engine, request) for engine in engines]
         rows = [np.stack(_sizes(self._vectors(one)), axis=-1) for one in responses]
         self.__dict__["_rms"] = read_only(np.stack(rows))

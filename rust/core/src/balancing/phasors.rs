@@ -68,8 +68,8 @@ pub fn least(request: &PhasorRequest, cancel: &Cancel) -> Result<Vec<Complex64>>
     Ok(pool::map(cancel, tasks, of_point)?.concat())
 }
 
-/// Share, from 0 to 1, of a change of phasors at receivers that leaves the least of `start + share·change`: the least
-/// largest length of groups of rows, of which there are so many each, or the least sum of squares of all.
+/// Share, from 0 to 1, of a change of phasors at receivers that minimises `start + share·change`: the largest length of
+/// its groups of rows, of these widths, or without widths the sum of squares of all.
 ///
 /// None where the change is nothing.
 pub fn least_share(
@@ -107,7 +107,7 @@ pub fn least_share(
     Ok(shares.min_by(|&one, &other| largest(one).total_cmp(&largest(other))))
 }
 
-/// Rows of real numbers of groups of so many phasors each.
+/// Rows of real numbers of groups of phasors, of these widths.
 fn groups_of(widths: &[usize]) -> Vec<Range<usize>> {
     let ends = widths.iter().scan(0, |end, width| {
         let first = *end;
