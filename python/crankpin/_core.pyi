@@ -84,6 +84,7 @@ __all__ = [
     "inertia_by_irregularity",
     "inline_throws",
     "irregularity_by_order",
+    "least_share",
     "link_rod_table",
     "listed_orders",
     "load_rows",
@@ -689,6 +690,9 @@ class AdaptiveLaw:
 def actuator_phasors(
     target: _Complex, effect: _Complex, bounds: _Real, effort: float, widths: Sequence[int] | None
 ) -> _Complex: ...
+def least_share(
+    start: _Complex, change: _Complex, widths: Sequence[int] | None
+) -> float | None: ...
 
 @final
 class MountObjectives:

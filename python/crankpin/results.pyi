@@ -31,6 +31,7 @@ from crankpin.analysis.mounts.design_responses import DesignResponses as DesignR
 from crankpin.analysis.mounts.feedback import VelocityFeedback as VelocityFeedback
 from crankpin.analysis.mounts.modes import MountModes as MountModes
 from crankpin.analysis.mounts.modes import RollAxes as RollAxes
+from crankpin.analysis.mounts.mount_sweep import MountSweep as MountSweep
 from crankpin.analysis.mounts.response import MountResponse as MountResponse
 from crankpin.analysis.mounts.response import OrderResponse as OrderResponse
 from crankpin.analysis.mounts.response import PointMotion as PointMotion

@@ -165,6 +165,7 @@ IN_PLACE = {
     ("mounts", "--orders"): "car.toml --rpm 2000 --orders 1,2",
     ("mounts", "--rtol"): "car.toml --rpm 2000 --rtol 1e-3",
     ("mounts", "--at"): "car.toml --rpm 2000 --at 0,0.1,0",
+    ("mounts", "--factor"): "car.toml --rpm 2000 --orders 1,2 --factor 40%",
     ("mounts-fit", "--rpm"): "car.toml --x 1mm --starts 1 --by mount_force[2] --rpm 2000",
     ("card", "--balanced-to"): "v8-crossplane --planes ends --radius 70mm --balanced-to 1.2kg",
     ("match", "--pistons"): "i4 --pistons 0.45,0.46,0.45,0.47",

@@ -302,7 +302,8 @@ KINDS: dict[str, list[Any]] = {
     "torque: float | Literal['engine']": [100.0],
     "vary": [{"left": {"stiffness": [1e5, 2e5]}}, "stiffness"],
     "watch": [[(0.0, 0.3, 0.0)]],
-    "engines": [ENGINE],
+    "engines": [ENGINE, {"engine": ENGINE}],
+    "receiver": ["head", "body"],
     "rod": [
         WITH_ROD.rod,
         Beside(
@@ -368,7 +369,7 @@ KINDS: dict[str, list[Any]] = {
     "quantity": [
         *("moment", "main", "velocity", "body_force", "crank_torque"),
         *("vertical_force", "h_moment", "hammer_blow", "rod_load"),
-        *("residual", "frequency", "sag", "torque_roll", "sums"),
+        *("residual", "frequency", "sag", "torque_roll", "sums", "force"),
     ],
     "row_units": [["", ""]],
     "header": [["a", "b"]],

@@ -655,6 +655,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "MountRobustness",
         "MountDesign",
         "DesignResponses",
+        "MountSweep",
         "DrivenResponse",
         "Cancellation",
         "AdaptiveLaw",

@@ -267,6 +267,17 @@ OBJECTS = Made(
             orders=[2],
             points=[(0.0, 0.3, 0.0)],
         ),
+        "MountSweep": lambda: MOUNTED.sweep(
+            [900.0, 3000.0],
+            factor=[0.0, 0.5, 1.0],
+            receivers={"head": (0.0, 0.3, 0.0)},
+            orders=[1, 2],
+        ),
+        "MountSweep of engines": lambda: MOUNTED.sweep(
+            3000.0,
+            engines={"four": I4, "crossplane": cp.Engine.preset("i4-crossplane")},
+            orders=[2],
+        ),
         "Actuator": lambda: SHAKER,
         "Cancellation": cancelled,
         "Cancellation at one speed": lambda: MOUNTED.response(3000.0, orders=[2, 4]).cancel(

@@ -158,6 +158,20 @@ def _scattered() -> Any:  # noqa: ANN401
     return ON_MOUNTS.designs(np.arange(600, 4001, 100.0), vary, orders=[2, 4])
 
 
+TWIN_IN_FRAME = cp.Powertrain(
+    cp.Engine.preset("i2-360"),
+    cp.RigidBody(60.0, (0.0, 0.06, 0.05), (2.0, 2.2, 1.6)),
+    [
+        cp.Mount(name, at, (3e6, 6e5, 1e6), loss_factor=0.1)
+        for name, at in [
+            ("front", (0.0, 0.1, -0.25)),
+            ("rear", (0.0, -0.15, 0.3)),
+            ("head", (0.05, 0.3, 0.0)),
+        ]
+    ],
+)
+
+
 @cache
 def designed() -> cp.results.MountDesign:
     """Mounts whose modes are between two frequencies."""
@@ -305,6 +319,11 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "mount-spectrum": lambda **place: MOUNTED.response(800).plot(mount="rear", **place),
     "mount-design": lambda **place: designed().plot(**place),
     "mount-designs": lambda **place: _scattered().plot(order=2, **place),
+    "mount-factors": lambda **place: TWIN_IN_FRAME.sweep(
+        np.arange(2000, 7001, 100),
+        factor=np.linspace(0, 1, 41),
+        receivers={"grip": (0.3, 0.6, -0.4), "peg": (0.25, -0.1, 0.2)},
+    ).plot(**place),
     "mount-robustness": lambda **place: MOUNTED.robustness(0.15, mass=0.02, cg=0.01).plot(**place),
     "roll-axes": ON_TILTED.axes().plot,
     "designs": V10S.plot,

@@ -183,6 +183,17 @@ EXCITATIONS = {
 }  # fmt: skip
 """Name of a quantity of a torsional excitation → its entry."""
 
+AT_RECEIVERS = {
+    kind.name: kind
+    for kind in (
+        Kind("velocity", "rms velocity", ("v",), ("rms of all orders",), "m/s",
+             dims=("receiver",), real=True),
+        Kind("force", "rms force", ("F",), ("rms of all orders",), "N", dims=("receiver",),
+             real=True),
+    )
+}  # fmt: skip
+"""Name of a quantity of a sweep on mounts → its entry."""
+
 _WAYS = {"horizontal": "H", "vertical": "V"}
 FOUNDATION = {
     kind.name: kind

@@ -70,6 +70,12 @@ def _powertrain(call: Given) -> Powertrain:
         choices=("powertrain", "support"),
         help="what the point of --at moves with: support, the subframe (default: powertrain)",
     ),
+    option(
+        "--factor",
+        metavar="RANGE",
+        help="balance factors, such as 0:1:0.05: rms at --at, or of the force on the body, over "
+        "the speeds by factor, and the best one",
+    ),
     option("--mount", metavar="NAME", help="mount of the picture (default: the sum of all)"),
     option(
         "--picture",
@@ -97,6 +103,7 @@ def _powertrain(call: Given) -> Powertrain:
             "robustness",
             "loads",
             "power",
+            "best",
             PHASES,
         ),
     ),
@@ -126,6 +133,8 @@ def _mounts(call: Given) -> Shown:
             raise rejected(flag, typed, "acts without --rpm alone")
     if np.size(rpm) > MOST_ROWS:
         raise inputs.faulty("--rpm", f"has {np.size(rpm)} speeds", f"give {MOST_ROWS} at most")
+    if (factors := call.range("--factor")) is not None:
+        return _by_factor(call, powertrain, rpm, factors)
     response = powertrain.response(rpm, **call.chosen())
     options = {"mount": call.text("--mount"), "kind": call.text("--picture")}
     if (typed := call.text("--at")) is None:
@@ -139,9 +148,28 @@ def _mounts(call: Given) -> Shown:
     return Shown(moved.frames, moved, options)
 
 
+def _by_factor(call: Given, powertrain: Powertrain, rpm: Any, factors: Any) -> Shown:  # noqa: ANN401
+    """Return the response at a point, or the force on the body, by balance factor."""
+    for flag in ("--mount", "--picture"):
+        if (typed := call.text(flag)) is not None:
+            raise rejected(flag, typed, "cannot be combined with --factor")
+    receivers: Any = "body_force"
+    if (typed := call.text("--at")) is not None:
+        receivers = {typed: typed}
+        if "," in typed:
+            place: Any = call.numbers("--at", "m")
+            on: Any = call.text("--on") or "powertrain"
+            point = powertrain.response(float(np.ravel(rpm)[0])).at(place, on)
+            receivers = {point._words: point}
+    elif (on := call.text("--on")) is not None:
+        raise rejected("--on", on, "needs --at")
+    swept = powertrain.sweep(rpm, factor=factors, receivers=receivers, **call.chosen())
+    return Shown(swept.frames, swept)
+
+
 def _at_rest(call: Given, powertrain: Powertrain) -> Shown:
     """Return modes, axes and the static state; what free motions leave undefined is left out."""
-    for flag in ("--at", "--on", "--mount", "--picture"):
+    for flag in ("--at", "--on", "--factor", "--mount", "--picture"):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "needs --rpm")
     frequency = call.optional("--frequency")

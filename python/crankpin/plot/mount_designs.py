@@ -12,6 +12,7 @@ from crankpin._support.drawing import picture
 from crankpin.analysis.mounts.design_mounts import MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses
 from crankpin.analysis.mounts.modes import RollAxes
+from crankpin.analysis.mounts.mount_sweep import MountSweep
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.plot.layout import (
@@ -143,6 +144,52 @@ def _designs(
         joined(words, which, result.loads_counted),
         "" if design is not None else f"design {chosen} has the least rms force on the body",
     )
+    add_legend(ax)
+    return ax
+
+
+@picture.register(MountSweep)
+def _sweep_on_mounts(
+    result: MountSweep, ax: Axes | None = None, *, receiver: str | None = None, **style: object
+) -> Axes:
+    """Draw the largest rms over speed by balance factor, or the rms of each engine over speed.
+
+    Parameters
+    ----------
+    receiver : str, optional
+        Name of a receiver; by default all by factor, the first of engines.
+    **style : dict, optional
+        Properties of matplotlib lines.
+    """
+    names = result.names
+    if receiver is not None:
+        names = (inputs.one_of("receiver", receiver, names),)
+    unit, scale = result._shown_in
+    (quantity,) = result.quantities.values()
+    values = scale * np.asarray(quantity)
+    ax = axes_or_new(ax)
+    if result.factor is None:
+        x, words = result.rpm, names[0]
+        rows = values[..., result.names.index(names[0])]
+        curves = dict(zip(result.engines, rows, strict=True))
+    else:
+        x, words = result.factor, "largest over speed"
+        curves = {name: values[..., result.names.index(name)].max(axis=1) for name in names}
+    sequence = np.argsort(x, kind="stable")
+    draw_curves(ax, x[sequence], {name: row[sequence] for name, row in curves.items()}, style)
+    if result.factor is None:
+        x_axis(ax, "crank speed, rpm", x)
+    else:
+        marks = {"best on mounts": (result.best(receiver), "-"),
+                 "least of the engine alone": (result._classical_factor, ":")}  # fmt: skip
+        for label, (factor, dashes) in marks.items():
+            if factor is not None and float(x.min()) <= factor <= float(x.max()):
+                look: dict[str, Any] = {"color": muted(ax, 0.6), "linewidth": 1.0, "zorder": 1}
+                ax.axvline(factor, label=f"{label}, {factor:.3g}", linestyle=dashes, **look)
+        x_axis(ax, "balance factor")
+    y_axis(ax, units.headed("rms", unit), largest=max(float(row.max()) for row in curves.values()))
+    title = joined(quantity.words, words, result.loads_counted)
+    set_title(ax, labels.name_of(result.engine), title)
     add_legend(ax)
     return ax
 

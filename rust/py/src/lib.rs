@@ -63,7 +63,8 @@ mod _core {
         matching::MeasuredParts,
         mounts::{
             AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, check_mount,
-            check_support, motor_shares, mount_stiffness, peaks_of_vectors, rigid_body,
+            check_support, least_share, motor_shares, mount_stiffness, peaks_of_vectors,
+            rigid_body,
         },
         pressure::{
             Cycle, compression_peak, low_passed, places_on_axis, polytropic_offsets, repeats_first,

@@ -719,6 +719,20 @@ pub fn actuator_phasors<'py>(
     frozen(py, memory::array("actuators", shape, found).or_raise()?)
 }
 
+/// Share, from 0 to 1, of a change of phasors that leaves the least: the least largest length of groups of rows, or the
+/// least sum of squares; None where the change is nothing.
+#[guarded]
+#[pyfunction]
+pub fn least_share(
+    py: Python<'_>,
+    start: PyReadonlyArray1<'_, Complex64>,
+    change: PyReadonlyArray1<'_, Complex64>,
+    widths: Option<Vec<usize>>,
+) -> PyResult<Option<f64>> {
+    let (start, change) = (start.as_slice()?, change.as_slice()?);
+    interrupt::run(py, |cancel| phasors::least_share(start, change, widths.as_deref(), cancel))
+}
+
 /// A law that adapts actuators' phasors to what receivers measure, at some points.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct AdaptiveLaw {

@@ -161,6 +161,7 @@ SHAKER = cp.Actuator(
 )
 NEEDED: dict[str, dict[str, Any]] = {
     "response": {"rpm": [700.0, 2500.0], "orders": [1, 2]},
+    "sweep": {"rpm": [700.0, 2500.0], "factor": [0.3, 0.6], "orders": [1, 2]},
     "designs": {"rpm": [700.0], "vary": {"0": {"stiffness": [1e5, 2e5]}}, "orders": [1]},
     "velocity_feedback": {"actuator": SHAKER},
     "save_html": {"path": "page.html"},
@@ -169,6 +170,8 @@ NEEDED: dict[str, dict[str, Any]] = {
 """Arguments without which a reading cannot be called."""
 REJECTED = {"designs", "design_mounts", "save_html"}
 """Readings of mounts on what does not move alone."""
+ON_RECEPTANCES = {"response", "sweep"}
+"""Readings that need no modes of the support."""
 NOT_READINGS = {"load", "save", "with_support", "replace", "with_misfire", "view", *dir(Framed)}
 """Methods that compute no figure; a view is the page of `save_html` in a notebook."""
 
@@ -210,7 +213,7 @@ def test_no_reading_leaves_out_what_carries_the_mounts(
 
     plain = read(None)
     for support, kind in ((STAGES.support, "subframe"), (measured, "receptance")):
-        if name in REJECTED or (kind == "receptance" and name != "response"):
+        if name in REJECTED or (kind == "receptance" and name not in ON_RECEPTANCES):
             with pytest.raises(cp.InputError, match=f"^support = a {kind}: "):
                 read(support)
         else:
@@ -222,7 +225,7 @@ def test_no_reading_leaves_out_what_carries_the_mounts(
 def test_refusals_are_one_sentence() -> None:
     said = set()
     for name in readings():
-        if name not in ("response", "save_html"):
+        if name not in (*ON_RECEPTANCES, "save_html"):
             with pytest.raises(cp.InputError) as error:
                 readings()[name](FIXED.with_support(as_receptance()), **NEEDED.get(name, {}))
             said.add(str(error.value))

@@ -15,6 +15,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
 from crankpin.analysis.mounts import modes as natural
+from crankpin.analysis.mounts import mount_sweep as swept
 from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.design_responses import DesignResponses
     from crankpin.analysis.mounts.feedback import VelocityFeedback
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
+    from crankpin.analysis.mounts.mount_sweep import MountSweep
     from crankpin.analysis.mounts.response import MountResponse
     from crankpin.analysis.mounts.static_state import StaticState
     from crankpin.model.actuators import Actuator
@@ -349,6 +351,71 @@ class Powertrain(Framed, Input):
             does not reach to the frequencies that decide, or a receptance carries the mounts.
         """
         return feedback.velocity_feedback(self, actuator, gain)
+
+    @documented(response)
+    def sweep(
+        self,
+        rpm: ArrayLike,
+        *,
+        factor: ArrayLike | None = None,
+        engines: Mapping[str, Engine] | None = None,
+        receivers: Any = "body_force",  # noqa: ANN401 - points, pairs, a mapping or a word
+        orders: Orders = "auto",
+        rtol: float | None = None,
+    ) -> MountSweep:
+        """Return motion or force at receivers by balance factor, or of several engines.
+
+        Which balance factor leaves the least velocity at a bar end or a seat depends on mounts and
+        body, which direction they mind: the best one of a range of factors is exact.
+
+        Parameters
+        ----------
+        rpm : array_like
+            Crank speeds, rpm, over which the largest responses are taken.
+        factor : array_like, optional
+            Balance factors: shares κ of the reciprocating mass that counterweights opposite the
+            crankpins balance, 0 to 10, in place of the engine's counterweights
+            (:func:`crankpin.bob_weight`).
+        engines : mapping of str to Engine, optional
+            Name → engine on these mounts, in place of ``factor``: of other throws, or masses.
+        receivers : sequence, mapping or {"body_force", "mount_force"}, default "body_force"
+            What is read: the velocity of points (x, y, z) of the powertrain, of receivers of a
+            receptance by name, or of motions of :meth:`MountResponse.at`; or of pairs of one of
+            these and a direction, along that; in a list or by name in a mapping. Or the mounts'
+            sum, or their forces.
+
+        Returns
+        -------
+        MountSweep
+            Rms of all orders by factor or engine, speed and receiver, and the best factor.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, both of ``factor`` and ``engines`` are given, or an
+            order meets a mode without damping.
+
+        Warns
+        -----
+        UserWarning
+            If pistons are faster than in any engine, or the mounts leave a motion free.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=45, cg=(0, 0.05, 0.02), inertia=(1.1, 1.3, 0.9))
+        >>> mounts = [  # stiff fore and aft, soft up and down
+        ...     cp.Mount(name, at=at, stiffness=(4e6, 4e5, 1e6), loss_factor=0.1)
+        ...     for name, at in [("a", (0.2, 0, 0.1)), ("b", (-0.2, 0, 0.1)), ("c", (0, 0.2, -0.1))]
+        ... ]
+        >>> p = cp.Powertrain(cp.Engine.preset("single"), body, mounts)
+        >>> f = p.sweep(range(3000, 7001, 100), factor=[0, 0.5, 1])
+        >>> f.force.dims, f.force.shape, 0 < f.best() < 0.1
+        (('factor', 'rpm', 'receiver'), (3, 41, 1), True)
+        """
+        return swept.sweep(
+            self, rpm, factor=factor, engines=engines, receivers=receivers, orders=orders, rtol=rtol
+        )
 
     @documented(response)
     def designs(

@@ -68,6 +68,60 @@ pub fn least(request: &PhasorRequest, cancel: &Cancel) -> Result<Vec<Complex64>>
     Ok(pool::map(cancel, tasks, of_point)?.concat())
 }
 
+/// Share, from 0 to 1, of a change of phasors at receivers that minimises `start + share·change`: the largest length of
+/// its groups of rows, of these widths, or without widths the sum of squares of all.
+///
+/// None where the change is nothing.
+pub fn least_share(
+    start: &[Complex64],
+    change: &[Complex64],
+    widths: Option<&[usize]>,
+    cancel: &Cancel,
+) -> Result<Option<f64>> {
+    limits::same_length("change", change.len(), "start", start.len(), "phasor")?;
+    let rows = widths.map_or(start.len(), |widths| widths.iter().sum());
+    limits::same_length("widths", rows, "start", start.len(), "phasor")?;
+    cancel.check()?;
+    let (start, mut change) = (real_column(start), real_matrix(change, 1));
+    let unit = change.column(0).amax();
+    if unit == 0.0 {
+        return Ok(None);
+    }
+    // Squares of what is small would underflow.
+    let (start, along) = (start / unit, change.column(0) / unit);
+    let of_squares = (-along.dot(&start) / along.norm_squared()).clamp(0.0, 1.0);
+    let Some(widths) = widths else { return Ok(Some(of_squares)) };
+    let groups = groups_of(widths);
+    let largest = |share: f64| largest_length(&(&along * share + &start), &groups);
+    // A share is a phasor without imaginary part, of a magnitude of at most ½ about the middle.
+    change.set_column(0, &(&along * 0.5));
+    change.column_mut(1).fill(0.0);
+    let middle = &along * 0.5 + &start;
+    if middle.amax() == 0.0 {
+        return Ok(Some(0.5));
+    }
+    let guess = DVector::from_column_slice(&[0.9 * (2.0 * of_squares - 1.0), 0.0]);
+    let found = bounded(&change, &middle, &groups, &[1.0], &guess)[0];
+    let least = f64::midpoint(1.0, found).clamp(0.0, 1.0);
+    let shares = [least, of_squares, 0.0, 1.0].into_iter();
+    Ok(shares.min_by(|&one, &other| largest(one).total_cmp(&largest(other))))
+}
+
+/// Rows of real numbers of groups of phasors, of these widths.
+fn groups_of(widths: &[usize]) -> Vec<Range<usize>> {
+    let ends = widths.iter().scan(0, |end, width| {
+        let first = *end;
+        *end += 2 * width;
+        Some(first..*end)
+    });
+    ends.collect()
+}
+
+/// Largest length of groups of rows.
+fn largest_length(rows: &DVector<f64>, groups: &[Range<usize>]) -> f64 {
+    groups.iter().map(|of| rows.rows_range(of.clone()).norm()).fold(0.0, f64::max)
+}
+
 /// One point in real numbers, real and imaginary part of each phasor side by side.
 struct PhasorsAtPoint<'a> {
     effect: DMatrix<f64>,
@@ -112,17 +166,9 @@ impl PhasorsAtPoint<'_> {
             found = bounded(&effect, &target, &[all], self.bounds, &DVector::zeros(found.len()));
         }
         if let Some(widths) = request.widths {
-            let ends = widths.iter().scan(0, |end, width| {
-                let first = *end;
-                *end += 2 * width;
-                Some(first..*end)
-            });
-            let groups: Vec<Range<usize>> = ends.collect();
+            let groups = groups_of(widths);
             let other = bounded(&effect, &target, &groups, self.bounds, &(&found * 0.9));
-            let largest = |of: &DVector<f64>| {
-                let left = &effect * of + &target;
-                groups.iter().map(|of| left.rows_range(of.clone()).norm()).fold(0.0, f64::max)
-            };
+            let largest = |of: &DVector<f64>| largest_length(&(&effect * of + &target), &groups);
             if largest(&other) < largest(&found) {
                 found = other;
             }
