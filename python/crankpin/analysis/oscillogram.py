@@ -41,6 +41,8 @@ POSSIBLE_SPEEDS = (0.1, 1e6)
 """Speeds, rpm, beyond which times are in other units."""
 SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 2, 3, 4, 6)
 """Orders of speed that are reported, as far as the pulses resolve them."""
+LONGEST_NUMBER = 10
+"""Digits of what is no number of a column but a name."""
 PLACE_HINT = "give the number of a column from 0, or its name"
 GAIN_HINT = "give gain and offset, such as CH1:20bar/V,-1bar"
 MARK_HINT = "give rising or falling, or a threshold such as 2.5V"
@@ -166,8 +168,9 @@ def oscillogram(
     if len(centres) != count:
         fault = f"has {len(centres)} angles for {count} cylinders"
         raise inputs.faulty("tdc_deg", fault, "give one for each channel of pressure")
-    within = [centre % period for centre in centres]
-    wheel = pulses if isinstance(pulses, str) else str(inputs.whole("pulses", pulses))
+    within = [inputs.finite("tdc_deg", centre) % period for centre in centres]
+    typed = pulses if isinstance(pulses, str) else str(inputs.whole("pulses", pulses))
+    wheel = inputs.text("pulses", typed)
     roles = [_Role.read("pressure", one) for one in of_pressure]
     roles += [_Role.read("encoder", encoder)]
     roles += [] if index is None else [_Role.read("index", index)]
@@ -330,7 +333,11 @@ class _Role(NamedTuple):
         if not column:
             raise inputs.rejected(role, given, PLACE_HINT)
         listed = tuple(word.strip() for word in words.split(",")) if colon else ()
-        return cls(role, int(column) if column.isdecimal() else column, listed)
+        return cls(
+            role,
+            int(column) if column.isdecimal() and len(column) < LONGEST_NUMBER else column,
+            listed,
+        )
 
 
 class _Channel(NamedTuple):
