@@ -197,7 +197,7 @@ pub fn crank_clock(
     cancel: &Cancel,
 ) -> Result<CrankClock> {
     let crossings = encoder.crossings(times, cancel)?;
-    let mut pulses = Pulses::placed(encoder.name, wheel, crossings, cancel)?;
+    let mut pulses = Pulses::placed(encoder.name, wheel, &crossings, cancel)?;
     let (zero, turns_per_mark) = match index {
         Some(index) => pulses.marked(index.name, &index.crossings(times, cancel)?)?,
         None if wheel.missing == 0 => {
@@ -230,7 +230,7 @@ impl Pulses {
     fn placed(
         name: &'static str,
         wheel: Wheel,
-        crossings: Vec<f64>,
+        crossings: &[f64],
         cancel: &Cancel,
     ) -> Result<Self> {
         let teeth = (wheel.places - wheel.missing) as usize;
@@ -240,7 +240,7 @@ impl Pulses {
                 "is it the right column, with the threshold between its levels, and long enough?";
             return Err(Error::fault(name, fault, hint));
         }
-        let (times, faults) = without_extra(&crossings);
+        let (times, faults) = without_extra(crossings);
         cancel.check()?;
         let mut pulses =
             Self { name, wheel, places: Vec::with_capacity(times.len()), times, faults };
