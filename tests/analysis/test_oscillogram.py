@@ -187,8 +187,8 @@ def test_columns_of_oscilloscopes_are_read(tmp_path: Path) -> None:
             [1e3 * t, 1e3 * p, wheel, mark], "\t", {
             "pressure": "Channel A:2000kPa/V,-100kPa", "encoder": "Channel B:2.5V",
             "index": "Channel C:2500mV"}),
-        "comma.csv": ("Zeit [ms];Druck;Geber;OT\n", [1e3 * t, p, wheel, mark], ";", {
-            "pressure": "Druck:20 bar/V,-1 bar", "encoder": "Geber", "index": "OT"}),
+        "comma.csv": ("Zeit [ms];Druck;Geber;Marke\n", [1e3 * t, p, wheel, mark], ";", {
+            "pressure": "Druck:20 bar/V,-1 bar", "encoder": "Geber", "index": "Marke"}),
         "plain.dat": ("", [p, wheel, mark], " ", {
             "pressure": "0:20bar/V,-1bar", "encoder": 1, "index": 2, "sampling_rate": 50e3}),
     }  # fmt: skip
