@@ -584,8 +584,8 @@ class Oscillogram(Tabled):
 
     @property
     def frames(self) -> Frames:
-        """``table``; ``curve``: speed over crank angle; ``pulses``: those missing and extra."""
-        return self._frames(curve=self._curve, pulses=lambda: self.pulses)
+        """``table``; ``curve``: speed over crank angle."""
+        return self._frames(curve=self._curve)
 
     def _curve(self) -> Table:
         curves = {
