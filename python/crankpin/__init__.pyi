@@ -23,6 +23,7 @@ from crankpin.analysis.locomotive import Locomotive as Locomotive
 from crankpin.analysis.mounts.design_mounts import design_mounts as design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain as Powertrain
 from crankpin.analysis.operating_map import operating_map as operating_map
+from crankpin.analysis.oscillogram import oscillogram as oscillogram
 from crankpin.analysis.prepared_trace import prepare_trace as prepare_trace
 from crankpin.analysis.ranking.rank import rank as rank
 from crankpin.analysis.rims import flywheel_disc as flywheel_disc

@@ -58,7 +58,9 @@ __all__ = [
     "closed_form",
     "compression_peak",
     "corrections",
+    "crank_clock",
     "crank_radius_of_stroke",
+    "cubics",
     "cycle_warnings",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
@@ -75,6 +77,7 @@ __all__ = [
     "explain",
     "far_peak",
     "figure_warnings",
+    "fires_a_turn_later",
     "fit_shafts",
     "fit_weights",
     "forward_weight",
@@ -102,6 +105,7 @@ __all__ = [
     "peak_warnings",
     "peaks_of_sums",
     "peaks_of_vectors",
+    "phasors_of_curves",
     "pin_split_warnings",
     "piston_speed_warnings",
     "piston_travel",
@@ -120,6 +124,7 @@ __all__ = [
     "rod_ratios",
     "roll_torque",
     "shared",
+    "speed_within_cycles",
     "star",
     "stiffness_warnings",
     "swing_deg",
@@ -925,6 +930,23 @@ def polytropic_offsets(
     exponent: float | None,
 ) -> tuple[float, _Real]: ...
 def low_passed(theta_deg: _Real, pressure: _Real, period_deg: float, order: float) -> _Real: ...
+
+_Recorded: TypeAlias = tuple[_Real, float | None, bool]
+
+def crank_clock(
+    times: _Real, encoder: _Recorded, pulses: str, index: _Recorded | None
+) -> tuple[_Real, _Real, int, list[tuple[float, int]]]: ...
+def cubics(x: _Real, y: _Real, at: _Real) -> _Real: ...
+def fires_a_turn_later(angles_deg: _Real, pressure: _Real, tdc_deg: Sequence[float]) -> bool: ...
+def speed_within_cycles(
+    times: _Real,
+    angles_deg: _Real,
+    pulses: str,
+    starts_deg: Sequence[float],
+    period_deg: float,
+    points: int,
+) -> tuple[_Real, int]: ...
+def phasors_of_curves(curves: _Real, period_deg: float, halves: Sequence[int]) -> _Complex: ...
 def repeats_first(argument: str, theta_deg: _Real, period_deg: float) -> bool | None: ...
 def vanishing(
     engine: Engine, halves: Sequence[int], reference_z: float | None, firing: Firing | None

@@ -39,6 +39,7 @@ from crankpin.analysis.mounts.response import WorstForce as WorstForce
 from crankpin.analysis.mounts.robustness import MountRobustness as MountRobustness
 from crankpin.analysis.mounts.static_state import StaticState as StaticState
 from crankpin.analysis.operating_map import OperatingMap as OperatingMap
+from crankpin.analysis.oscillogram import Oscillogram as Oscillogram
 from crankpin.analysis.prepared_trace import PreparedTrace as PreparedTrace
 from crankpin.analysis.quantity import Quantity as Quantity
 from crankpin.analysis.ranking.ranking import Choice as Choice

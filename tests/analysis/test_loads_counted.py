@@ -95,7 +95,7 @@ NOTHING_OF_GAS = {
     "Table",  # has its loads itself
     "ArrangementSearch", "BalanceShafts", "BobWeight", "Counterweights", "Match",
     "TwoPlaneCorrection",  # force and moment
-    "PreparedTrace",  # the pressure itself
+    "Oscillogram", "PreparedTrace",  # the pressure itself
     "VanishingOrders", "Verdicts",  # which orders of either there are
     "Firing", "DeadCentres",  # angles; those that do not fire are named
     "MountModes", "MountRobustness", "RollAxes", "StaticState",

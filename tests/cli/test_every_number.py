@@ -23,12 +23,13 @@ WORDS = {
     "--name", "--units", "--out", "--plot", "--save", "--html", "--motored", "--cycle", "--sheet",
     "--pressure-unit", "--controls", "--columns", "--sides", "--vary", "--by", "--firing-order",
     "--odd-bank", "--numbering", "--target", "--add-load", "--drive", "--load",
+    "--pressure", "--encoder", "--pulses", "--index", "--time",
 }  # fmt: skip
 """Options that are names, files and sequences, no numbers."""
 NAMES = {
     ("mounts", "--mount"), ("new", "--mount"), ("new", "--body"), ("new", "--cranks"),
     ("new", "--link-rods"), ("new", "--master"),
-    ("trace", "--leave-out"), ("trace", "--recorded-rpm"),
+    ("trace", "--leave-out"), ("trace", "--recorded-rpm"), ("trace", "--sampling-rate"),
 }  # fmt: skip
 """Options that are so in one command, of fields, or of files with several cycles."""
 BASE = LINES | {

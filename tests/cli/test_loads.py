@@ -380,3 +380,51 @@ def test_traces_of_several_cylinders_in_one_file(capsys: CAPTURE, tmp_path: Path
         short = ["trace", "i4", str(file), "--columns", columns_typed, "--tdc", tdc]
         assert main(short) == 2
         assert word in capsys.readouterr().err
+
+
+def test_a_record_of_an_oscilloscope_is_read_by_roles(
+    capsys: CAPTURE, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engine = cp.Engine.preset("i4")
+    seconds = np.arange(0.0, 0.6, 2e-5)
+    theta = 9000.0 * seconds - 500.0
+    volts = [cp.Cycle.example().pressure_at(theta - at) / 20e5 + 0.05 for at in (0, 540, 180, 360)]
+    local = (theta + 114.0) % 360.0
+    wheel, mark = 5.0 * ((local % 6 < 3) & (local < 348)), 5.0 * (local < 3)
+    columns = np.c_[seconds, np.transpose(volts), wheel, mark]
+    head = "Time,CH1,CH2,CH3,CH4,CH5,CH6\ns,V,V,V,V,V,V"
+    np.savetxt(tmp_path / "scope.csv", columns, "%.6f", ",", header=head, comments="")
+    monkeypatch.chdir(tmp_path)
+    clock = "--encoder CH5 --pulses 60-2 --tdc 114"
+    one = f"trace i4 scope.csv --bore 86mm --pressure CH1:20bar/V,-1bar {clock} --index CH6"
+    text = printed(capsys, f"{one} --intake-pressure 0.95bar --save run.toml")
+    scope = cp.oscillogram(
+        "scope.csv", pressure="CH1:20bar/V,-1bar", encoder="CH5", pulses="60-2", index="CH6",
+        tdc_deg=114,
+    )  # fmt: skip
+    assert scope.table.text() in text
+    assert f"Read: {scope.traces[0].origin}." in text
+    assert "firing by pressure" in text
+    cylinder = engine.cylinders[0].replace(bore=0.086)
+    prepared = cp.prepare_trace(scope.traces[0], cylinder, intake_pressure=0.95e5)
+    assert prepared.traces.spread(cylinder).text() in text
+    saved = cp.Engine.load("run.toml")
+    assert saved.cycles is not None
+    assert saved.cycles[0] == prepared.cycle
+    assert saved.cylinders[0].bore == 0.086
+    each = " ".join(f"--pressure CH{k}:20bar/V,-1bar" for k in (1, 2, 3, 4))
+    of_all = printed(capsys, f"trace i4 scope.csv --bore 86mm {each} {clock}")
+    assert "scope, 4 cylinders, spread" in of_all
+    rate = "--sampling-rate 50000"
+    assert "irregularity" in printed(capsys, f"{one} {rate}")
+    for line, message in (
+        (f"trace i4 scope.csv --pressure CH1:20bar/V {clock} --columns 0,1", "--columns = 0,1: an"),
+        ("trace i4 scope.csv --pressure CH1:20bar/V --encoder CH5", "--encoder needs --pulses"),
+        ("trace i4 scope.csv --pulses 60-2", "--pulses = 60-2: needs --encoder"),
+        (f"trace v6-60 scope.csv {each} {clock}", "the engine has 6 cylinders; give one channel"),
+        (f"{one.replace('CH5', 'CH9')}", "--encoder = CH9: there is none; the file has"),
+        (f"{one} --time 0:h", "--time = '0:h': give a unit of time"),
+        (f"{one} --time 7", "--time = 7: give numbers from 0 to 6"),
+    ):
+        assert main(line.split()) == 2, line
+        assert message in capsys.readouterr().err

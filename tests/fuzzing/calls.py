@@ -184,6 +184,10 @@ BESIDE = {
     ("flywheel", "drive"): "load_torque",
     ("flywheel_rim", "mean_diameter"): "width_ratio",
     ("stroke_load", "period_deg"): "duration_deg",
+    ("oscillogram", "source"): "pressure|encoder|index|time",
+    ("oscillogram", "pulses"): "encoder",
+    ("oscillogram", "strokes"): "pressure",
+    ("oscillogram", "sheet"): "source",
     ("sweep", "rod_ratio"): "rtol",
     ("wiebe", "intake_closes_deg"): "start_deg",
 }

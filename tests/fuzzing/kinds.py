@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import crankpin as cp
 import numpy as np
+from support import scope
 
 from fuzzing.sound import CYCLE, JSON, TOML, two_stroke
 
@@ -71,6 +72,13 @@ def files() -> list[str]:
         for row in zip(THETA.tolist(), CYCLE.pressure_at(THETA).tolist(), strict=True):
             book.active.append(row)
         book.save(FOLDER / "cycle.xlsx")
+        sampled = scope.channels()
+        book = importlib.import_module("openpyxl").Workbook()
+        book.active.title = "scope"
+        book.active.append(tuple(sampled))
+        for row in zip(*(values.tolist() for values in sampled.values()), strict=True):
+            book.active.append(row)
+        book.save(FOLDER / "scope.xlsx")
     return paths
 
 
@@ -263,10 +271,21 @@ KINDS: dict[str, list[Any]] = {
     "angle_unit": ["deg", Beside("deg", {"path": "cycle.csv"})],
     "atmosphere": [1e5],
     "columns": [[0, 1]],
-    "sheet": [Beside("cycles", {"path": str(FOLDER / "cycle.xlsx"), "columns": [0, 1]})],
+    "sheet": [
+        Beside("cycles", {"path": str(FOLDER / "cycle.xlsx"), "columns": [0, 1]}),
+        Beside("scope", {"source": str(FOLDER / "scope.xlsx")}),
+    ],
     "gauge": [False],
     "pressure_unit": ["Pa"],
     "recorded_rpm": [Beside(2000.0, {"path": str(FOLDER / "time.csv")})],
+    # Oscillograms.
+    "oscillogram.pressure": ["p abs [Pa]"],
+    "encoder": ["wheel"],
+    "pulses": ["12-1"],
+    "index": ["mark"],
+    "oscillogram.source": [scope.channels()],
+    "time": ["time [s]", Beside("time [s]", {"sampling_rate": ...})],
+    "sampling_rate": [Beside(9000.0, {"time": ...})],
     # Mounts.
     "actuator": [SHAKER],
     "actuators": [SHAKER],

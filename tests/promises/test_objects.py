@@ -661,6 +661,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "AdaptiveLaw",
         "VelocityFeedback",
         "PointMotion",
+        "Oscillogram",
         "PreparedTrace",
         "RollAxes",
         "Waveform",

@@ -14,6 +14,7 @@ import crankpin as cp
 import numpy as np
 
 from support.engines import OFFSET
+from support.scope import scope
 
 V6 = cp.Engine.vee(
     OFFSET,
@@ -228,6 +229,7 @@ OBJECTS = Made(
             load=[0, 0.5, 1],
             inertia=0.2,
         ),
+        "Oscillogram": scope,
         "PreparedTrace": lambda: cp.prepare_trace(
             cp.Traces(THETA, cp.Cycle.example().pressure_at(THETA) * [[0.99], [1.0], [1.02]]),
             OFFSET.replace(bore=0.09),

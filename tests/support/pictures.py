@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from support.engines import CYLINDER, I4, V6
+from support.scope import scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -287,6 +288,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
         cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086), **place
     ),
     "traces": TRACES.plot,
+    "oscillogram": scope().plot,
     "prepared-trace": lambda **place: cp.prepare_trace(
         TRACES, cp.Cylinder(0.043, 0.145, 0.5, bore=0.086), tdc_deg=0.5, intake_pressure=0.95e5
     ).plot(**place),

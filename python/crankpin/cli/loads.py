@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -14,9 +15,10 @@ from crankpin._support.quantities import LOADS
 from crankpin._support.record import changed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.bearings import REFERENCE_AXES, bearing_loads
+from crankpin.analysis.oscillogram import Oscillogram, oscillogram
 from crankpin.analysis.prepared_trace import prepare_trace
 from crankpin.analysis.rod_loads import USUAL_REVERSAL, rod_loads
-from crankpin.cli.options import command, keyword, keywords, option, rejected
+from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, in_short, left_out, only
 from crankpin.model.computed_cycles import EXAMPLES
 from crankpin.model.cycle import Cycle
@@ -24,14 +26,13 @@ from crankpin.model.cycle_files import load
 from crankpin.model.traces import Traces
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
 
     from matplotlib.axes import Axes
 
     from crankpin.analysis.prepared_trace import PreparedTrace
     from crankpin.cli.arguments import Given
     from crankpin.cli.options import Option
-    from crankpin.model.cycle_files import FileOptions
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
@@ -40,6 +41,28 @@ def _columns(call: Given, flag: str) -> list[int | str]:
     """Return columns by number or name."""
     parts = (part.strip() for part in call.text(flag).split(","))
     return [int(part) if part.isdecimal() else part for part in parts]
+
+
+def _channels(call: Given, flag: str) -> list[str]:
+    """Return the channels of an option that is given once for each cylinder."""
+    return list(call.text(flag))
+
+
+OF_A_RECORD = (
+    keyword(
+        oscillogram,
+        "pressure",
+        group="an oscillogram, over time, in FILE",
+        read=_channels,
+        action="append",
+        metavar="CH:GAIN,OFFSET",
+        more="; once for each cylinder",
+    ),
+    *keywords(
+        oscillogram, "encoder pulses index time sampling_rate", "an oscillogram, over time, in FILE"
+    ),
+)
+"""Options of channels that an oscilloscope has recorded."""
 
 
 def _of_files(group: str, **tdc: Any) -> tuple[Option, ...]:  # noqa: ANN401 - settings
@@ -249,15 +272,25 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
         prepare_trace,
         "loss_angle_deg lowpass_order intake_pressure leave_out spikes exponent compression_ratio",
     ),
+    *OF_A_RECORD,
     "--units --csv --plot --save --force",
-    example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml",
-    note="--save writes the engine with the mean of the prepared cycles.",
+    example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml\n"
+    f"  {PROG} trace i4 scope.csv --pressure CH1:20bar/V,-1bar --encoder CH2 --pulses 60-2 "
+    "--index CH3",
+    note="--save writes the engine with the mean of the prepared cycles. With --encoder the file\n"
+    "is an oscillogram, --tdc the angle from the index to the firing top dead centre of\n"
+    "cylinder 1, and that of each other cylinder follows from the firing order.",
 )
 def _trace(call: Given) -> Shown:
     engine = call.engine("trace")
     cylinders, note = _with_bores(engine, call.optional("--bore", "m"))
     read_as = _read_as(call, engine.strokes)
     centres = read_as.get("tdc_deg")
+    if call.text("--encoder") is not None:
+        return _recorded(call, engine, cylinders, note)
+    for unused in OF_A_RECORD:
+        if call.text(unused.label) is not None:
+            raise rejected(unused.label, str(call.text(unused.label)), "needs --encoder; give it")
     several = isinstance(centres, list)
     if several and len(centres) != len(engine):
         hint = f"the engine has {len(engine)} cylinders; give one angle, or one for each"
@@ -272,11 +305,62 @@ def _trace(call: Given) -> Shown:
 
     traces, motored = loaded("file", call.text("file")), call.text("--motored")
     without_fire = loaded("--motored", motored) if motored else [None] * len(traces)
+    return _prepared(call, engine, cylinders, note, traces, without_fire)
+
+
+def _recorded(call: Given, engine: Engine, cylinders: list[Cylinder], note: str) -> Shown:
+    """Return the prepared cycles and the speed of an oscillogram."""
+    others = ("--columns", "--recorded-rpm", "--angle-unit")
+    for unused in (flag for flag in others if call.text(flag) is not None):
+        hint = "an oscillogram has channels by role; leave it out"
+        raise rejected(unused, call.text(unused), hint)
+    for needed in ("--pressure", "--pulses"):
+        if call.text(needed) is None:
+            raise inputs.faulty("--encoder", f"needs {needed}", "give it too")
+    options = {
+        name: value
+        for name, value in _read_as(call, engine.strokes).items()
+        if name in inspect.signature(oscillogram).parameters
+    } | call.keywords(oscillogram)
+    channels, centres = options["pressure"], options.pop("tdc_deg", 0.0)
+    if len(channels) > 1:
+        if len(channels) != len(engine):
+            hint = f"the engine has {len(engine)} cylinders; give one channel, or one for each"
+            raise rejected("--pressure", " ".join(channels), hint)
+        if not isinstance(centres, list):
+            at = engine.firing().angles_deg
+            centres = [centres + float(angle - at[0]) for angle in at]
+    options |= {"pressure": channels, "tdc_deg": centres}
+
+    def loaded(option: str, path: str) -> Oscillogram:
+        return _loaded(oscillogram, option, path, options)
+
+    record, motored = loaded("file", call.text("file")), call.text("--motored")
+    without_fire = loaded("--motored", motored).traces if motored else [None] * len(channels)
+    shown = _prepared(call, engine, cylinders, note, record.traces, without_fire)
+    note = f"{note}Read: {record.traces[0].origin}.\n"
+    frames: dict[str, Callable[[], Table]] = {
+        name: partial(shown.frames.__getitem__, name) for name in shown.frames
+    }
+    frames["speed"] = lambda: record.table
+    return shown._replace(frames=Frames(frames), note=note)
+
+
+def _prepared(
+    call: Given,
+    engine: Engine,
+    cylinders: list[Cylinder],
+    note: str,
+    traces: Sequence[Traces],
+    without_fire: Sequence[Traces | None],
+) -> Shown:
+    """Return cycles prepared as options say, and the engine with their means."""
     prepared = [
         prepare_trace(recorded, cylinder, motored=by_motoring, **call.keywords(prepare_trace))
         for recorded, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
     cycles = [trace.cycle for trace in prepared]
+    several = len(cycles) > 1
     with_mean = engine.replace(cylinder=cylinders).with_cycle(cycles if several else cycles[0])
     whole = OfCylinders(tuple(prepared)) if several else prepared[0]
     note += f"Read: {'; '.join(dict.fromkeys(trace.origin for trace in traces))}.\n"
@@ -324,15 +408,15 @@ class OfCylinders(NamedTuple):
         return ax
 
 
-Read = TypeVar("Read", Cycle, Traces, tuple[Traces, ...])
+Read = TypeVar("Read", Cycle, Traces, tuple[Traces, ...], Oscillogram)
 
 
-def _loaded(load: Callable[..., Read], option: str, path: str, read_as: FileOptions) -> Read:
+def _loaded(load: Callable[..., Read], option: str, path: str, read_as: Mapping[str, Any]) -> Read:
     """Return the content of a file, read by options; of several files errors name theirs."""
     try:
         return load(path, **read_as)
     except InputError as error:
-        if error.argument != "path" or error.hint is None:
+        if error.argument not in ("path", "source") or error.hint is None:
             raise
         fault, hint = inputs.fault_of(error), hint_of(error)
         if fault.startswith("= "):

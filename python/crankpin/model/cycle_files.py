@@ -503,7 +503,7 @@ def _resampled(
     if first_angles.shape == every.shape and np.abs(first_angles - every).max() < DIFFERENT * step:
         first_rows = pressures[:, : len(every)]
     else:
-        first_rows = np.array([_cubic(theta, one, every) for one in pressures])
+        first_rows = np.array([_core.cubics(theta, one, every) for one in pressures])
     return grid, first_rows.reshape(-1, points)
 
 
@@ -515,23 +515,7 @@ def _interpolated(
     theta, values = theta[ends], values[ends]
     around = np.concatenate([theta[-3:] - period, theta, theta[:3] + period])
     joined = np.concatenate([values[-3:], values, values[:3]])
-    return _cubic(around, joined, (at - theta[0]) % period + theta[0])
-
-
-def _cubic(
-    x: NDArray[np.float64], y: NDArray[np.float64], at: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return values at some places of the cubics through four neighbouring points each."""
-    if len(x) < 4 or (np.diff(x) <= 0.0).any():
-        return np.interp(at, x, y)  # what is wrong with them is said where cycles are checked
-    first = np.clip(np.searchsorted(x, at) - 2, 0, len(x) - 4)
-    total = np.zeros(at.shape)
-    for k in range(4):
-        weight = np.ones(at.shape)
-        for j in {0, 1, 2, 3} - {k}:
-            weight *= (at - x[first + j]) / (x[first + k] - x[first + j])
-        total += weight * y[first + k]
-    return total
+    return _core.cubics(around, joined, (at - theta[0]) % period + theta[0])
 
 
 def _speed(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, TypeAlias, overload
 
 import numpy as np
 
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from crankpin.model.odd_cycles import Oddities
     from crankpin.model.table_files import Column as FileColumn
 
+OverCycles: TypeAlias = "tuple[str, str, NDArray[np.float64] | NDArray[np.complex128]]"
+"""Name and unit of a figure, and its numbers or phasors by cycle."""
 SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 6, 12)
 """Orders whose torque is reported of measured traces: two low ones, and two that phases shift."""
 OF_WHITE_NOISE = 70.0
@@ -417,44 +419,16 @@ class Traces(Tabled, Input):
         """
         chosen = inputs.explicit_half_orders(orders)
         phasors = self.torque_harmonics(cylinder, chosen)
-        figures = [
+        figures: list[OverCycles] = [
             ("peak pressure", "bar", self.peaks / 1e5),
             ("angle of peak", "°", self.peaks_deg),
             ("imep", "bar", self.imep(cylinder) / 1e5),
         ]
-        rows = [
-            (
-                name,
-                unit,
-                float(values.mean()),
-                _deviation(values),
-                float(values.min()),
-                float(values.max()),
-            )
-            for name, unit, values in figures
+        of_orders = [
+            (f"torque order {order:g}", "N·m", phasor)
+            for order, phasor in zip(chosen, phasors.T, strict=True)
         ]
-        for order, phasor in zip(chosen, phasors.T, strict=True):
-            sizes = np.abs(phasor)
-            mean = float(abs(phasor.mean()))
-            extremes = float(sizes.min()), float(sizes.max())
-            rows.append((f"torque order {order:g}", "N·m", mean, _deviation(phasor), *extremes))
-        of_mean = [
-            100.0 * row[3] / abs(row[2]) if row[2] and row[1] != "°" else None for row in rows
-        ]
-        names, row_units, *columns = zip(*rows, strict=True)
-        heads = ("mean", "deviation", "least", "largest")
-        numbers = [Column(head, values) for head, values in zip(heads, columns, strict=True)]
-        return Table(
-            f"{self._title}, spread",
-            (
-                Column("figure", names),
-                *numbers[:2],
-                Column("COV", tuple(of_mean), "%", digits=3),
-                *numbers[2:],
-                Column("unit", row_units),
-            ),
-            row_units=row_units,
-        )
+        return spread_table(f"{self._title}, spread", [*figures, *of_orders])
 
     @documented(torque_harmonics)
     def resolution_error(
@@ -512,6 +486,37 @@ class Traces(Tabled, Input):
             ),
             note=self.origin,
         )
+
+
+def spread_table(title: str, figures: Sequence[OverCycles]) -> Table:
+    """Return mean and spread over cycles of figures: name, unit, and numbers or phasors by cycle.
+
+    Of phasors mean is the magnitude of their mean, deviation that in the plane.
+    """
+    rows = []
+    for name, unit, values in figures:
+        plane = np.iscomplexobj(values)
+        sizes, mean = (np.abs(v) if plane else v.real for v in (values, values.mean()))
+        row = (name, float(mean), _deviation(values), float(sizes.min()), float(sizes.max()), unit)
+        rows.append(row)
+    names, means, deviations, least, largest, row_units = zip(*rows, strict=True)
+    of_mean = [
+        100.0 * deviation / abs(mean) if mean and unit != "°" else None
+        for mean, deviation, unit in zip(means, deviations, row_units, strict=True)
+    ]
+    return Table(
+        title,
+        (
+            Column("figure", names),
+            Column("mean", means),
+            Column("deviation", deviations),
+            Column("COV", tuple(of_mean), "%", digits=3),
+            Column("least", least),
+            Column("largest", largest),
+            Column("unit", row_units),
+        ),
+        row_units=row_units,
+    )
 
 
 def _deviation(values: NDArray[np.float64] | NDArray[np.complex128]) -> float:

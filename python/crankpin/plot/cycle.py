@@ -10,6 +10,7 @@ from crankpin._support import labels, units
 from crankpin._support.drawing import picture
 from crankpin._support.inputs import optional_text
 from crankpin.analysis.flywheel import Flywheel
+from crankpin.analysis.oscillogram import Oscillogram
 from crankpin.analysis.prepared_trace import PreparedTrace
 from crankpin.analysis.turning_moment import TurningMomentAreas
 from crankpin.model.computed_cycles import area
@@ -106,6 +107,35 @@ def _band(
     if is_lowest:
         x_axis(ax, FROM_FIRING, theta, by_angle=True)
     y_axis(ax, PRESSURE, largest=max(float(rows.max()), float(ax.dataLim.y1)))
+
+
+@picture.register(Oscillogram)
+def _oscillogram(
+    result: Oscillogram, ax: Axes | None = None, *, label: str | None = None, **style: object
+) -> Axes:
+    """Draw the mean speed over crank angle, in the band of all cycles.
+
+    Parameters
+    ----------
+    **style : dict, optional
+        Properties of the line, as matplotlib takes them.
+    """
+    ax = axes_or_new(ax)
+    first = not count_series(ax)
+    set_title(ax, "Speed over the crank angle", *([labels.one_line(result.name)] if first else []))
+    count = len(result.speed)
+    name = optional_text("label", label) or f"mean of {count} cycle{'s' * (count > 1)}"
+    theta = np.append(result.theta_deg, -result.theta_deg[0])
+    speed = np.column_stack([result.speed, result.speed[:, :1]])
+    (line,) = draw_curves(ax, theta, {name: speed.mean(axis=0)}, style)
+    if count > 1:
+        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
+        least, most = speed.min(axis=0), speed.max(axis=0)
+        ax.fill_between(theta, least, most, label="least to largest", **band)
+    x_axis(ax, FROM_FIRING, theta, by_angle=True)
+    y_axis(ax, units.headed("crank speed", "rpm"))
+    add_legend(ax)
+    return ax
 
 
 @picture.register(PreparedTrace)

@@ -9,6 +9,7 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Compressor, Face, Ideal, Swept};
+use crankpin_core::pressure::encoder::{self, Signal, Wheel};
 use crankpin_core::pressure::example::{Example, ExampleKind};
 use crankpin_core::pressure::map::between;
 use crankpin_core::pressure::preparation;
@@ -89,6 +90,104 @@ pub fn low_passed<'py>(
         memory::array("pressure", pressure.dim(), smooth)
     })?;
     writeable(py, smooth)
+}
+
+type Recorded<'py> = (PyReadonlyArray1<'py, f64>, Option<f64>, bool);
+type Clock<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, u32, Vec<(f64, i64)>);
+
+/// Times and crank angles, degrees, of the pulses of an encoder; turns between marks of the index; times of faults,
+/// with the number of missing pulses or −1. Signals are values, threshold, and whether pulses are where they fall.
+#[guarded]
+#[pyfunction]
+pub fn crank_clock<'py>(
+    py: Python<'py>,
+    times: PyReadonlyArray1<'_, f64>,
+    encoder: Recorded<'_>,
+    pulses: &str,
+    index: Option<Recorded<'_>>,
+) -> PyResult<Clock<'py>> {
+    fn signal<'a>(
+        name: &'static str,
+        (values, threshold, falls): &'a Recorded<'_>,
+    ) -> PyResult<Signal<'a>> {
+        Ok(Signal { name, values: values.as_slice()?, threshold: *threshold, falls: *falls })
+    }
+    let wheel = Wheel::parse(pulses).or_raise()?;
+    let (times, of_encoder) = (times.as_slice()?, signal("encoder", &encoder)?);
+    let of_index = index.as_ref().map(|index| signal("index", index)).transpose()?;
+    let clock = interrupt::run(py, |cancel| {
+        encoder::crank_clock(times, &of_encoder, wheel, of_index.as_ref(), cancel)
+    })?;
+    let faults = clock.faults.iter().map(|fault| (fault.seconds, fault.missing)).collect();
+    let angles = frozen(py, clock.angles_deg.into())?;
+    Ok((frozen(py, clock.times.into())?, angles, clock.turns_per_mark, faults))
+}
+
+/// Values at places of the cubics through the four points about each.
+#[guarded]
+#[pyfunction]
+pub fn cubics<'py>(
+    py: Python<'py>,
+    x: PyReadonlyArray1<'_, f64>,
+    y: PyReadonlyArray1<'_, f64>,
+    at: PyReadonlyArray1<'_, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (x, y, at) = (x.as_slice()?, y.as_slice()?, at.as_slice()?);
+    let values = interrupt::run(py, |cancel| encoder::cubics(x, y, at, cancel))?;
+    writeable(py, values.into())
+}
+
+/// Whether cylinders fire a turn later than at dead centres, by pressure of each over crank angles.
+#[guarded]
+#[pyfunction]
+pub fn fires_a_turn_later(
+    py: Python<'_>,
+    angles_deg: PyReadonlyArray1<'_, f64>,
+    pressure: PyReadonlyArray2<'_, f64>,
+    tdc_deg: Vec<f64>,
+) -> PyResult<bool> {
+    let (angles, pressure) = (angles_deg.as_slice()?, pressure.as_array());
+    interrupt::run(py, |cancel| encoder::fires_a_turn_later(angles, &pressure, &tdc_deg, cancel))
+}
+
+/// Speed, rpm, at equal steps of cycles that start at crank angles: (`n_cycles`, `n_points`); highest harmonic of the
+/// cycle that pulses resolve.
+#[guarded]
+#[pyfunction]
+pub fn speed_within_cycles<'py>(
+    py: Python<'py>,
+    times: PyReadonlyArray1<'_, f64>,
+    angles_deg: PyReadonlyArray1<'_, f64>,
+    pulses: &str,
+    starts_deg: Vec<f64>,
+    period_deg: f64,
+    points: usize,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, usize)> {
+    let clock = (times.as_slice()?, angles_deg.as_slice()?);
+    let wheel = Wheel::parse(pulses).or_raise()?;
+    let speeds = interrupt::run(py, |cancel| {
+        let speeds =
+            encoder::speed_within_cycles(clock, wheel, &starts_deg, period_deg, points, cancel)?;
+        memory::array("encoder", (starts_deg.len(), points), speeds)
+    })?;
+    Ok((frozen(py, speeds)?, wheel.harmonics(period_deg)))
+}
+
+/// Peak phasors, at orders counted in halves, of curves at equal steps of a period: (`n_curves`, `n_orders`).
+#[guarded]
+#[pyfunction]
+pub fn phasors_of_curves<'py>(
+    py: Python<'py>,
+    curves: PyReadonlyArray2<'_, f64>,
+    period_deg: f64,
+    halves: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    let (curves, orders) = (curves.as_array(), orders_of_halves(halves)?);
+    let phasors = interrupt::run(py, |cancel| {
+        let phasors = encoder::phasors(&curves, period_deg, &orders, cancel)?;
+        memory::array("orders", (curves.nrows(), orders.len()), phasors)
+    })?;
+    writeable(py, phasors)
 }
 
 type PlacesOnAxis<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);

@@ -2,10 +2,11 @@
 //!
 //! Imports run downwards: [`Cycle`] keeps the points it was given and the piecewise polynomial through
 //! them (`interpolant`); `harmonics` integrates that over a piston's motion; `chamber` and `burn` compute
-//! cycles of a cylinder; `preparation` corrects measured ones.
+//! cycles of a cylinder; `preparation` corrects measured ones, whose crank angle `encoder` reads from pulses.
 
 pub mod burn;
 pub mod chamber;
+pub mod encoder;
 pub mod example;
 mod harmonics;
 mod interpolant;
