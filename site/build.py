@@ -57,6 +57,8 @@ DECLARING: dict[Any, str] = {
     cp.Engine.vee: "throws_deg bank_angle_deg pin_split_deg spacing bank_stagger absent odd_bank "
     "numbering rotating_mass firing_order strokes",
     cp.Engine.radial: "cylinders rows",
+    cp.Engine.u: "distance phase_deg ratio",
+    cp.Engine.opposed_pistons: "lead_deg",
     cp.Engine.from_lists: "bank_deg tdc_deg z",
     cp.flywheel: "inertia",
 }

@@ -38,11 +38,12 @@ UNLABELLED = """() => [...document.querySelectorAll(".bench :is(input, select, b
 BUILDERS: dict[str, Any] = {
     "inline": cp.Engine.inline, "vee": cp.Engine.vee, "flat": cp.Engine.flat,
     "boxer": cp.Engine.boxer, "fan": cp.Engine.from_banks, "radial": cp.Engine.radial,
-    "lists": cp.Engine.from_lists,
+    "opposed_pistons": cp.Engine.opposed_pistons, "u": cp.Engine.u,
+    "square_four": cp.Engine.square_four, "h": cp.Engine.h, "lists": cp.Engine.from_lists,
 }  # fmt: skip
 """Kind of the form → the builder that takes its fields."""
 ELSEWHERE = {
-    "cylinder", "rotating_mass", "name", "source",  # of every kind
+    "cylinder", "upper", "rotating_mass", "name", "source",  # of every kind
     "first_tdc_deg", "counterweights", "shafts", "mains", "reference_z", "pin_deg", "cranks",
     "crank", "rods", "master",  # of engine files
 }  # fmt: skip
