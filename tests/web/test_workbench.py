@@ -43,7 +43,7 @@ BUILDERS: dict[str, Any] = {
 }  # fmt: skip
 """Kind of the form → the builder that takes its fields."""
 ELSEWHERE = {
-    "cylinder", "upper", "rotating_mass", "name", "source",  # of every kind
+    "cylinder", "upper", "one_crankshaft", "rotating_mass", "name", "source",  # of every kind
     "first_tdc_deg", "counterweights", "shafts", "mains", "reference_z", "pin_deg", "cranks",
     "crank", "rods", "master",  # of engine files
 }  # fmt: skip
