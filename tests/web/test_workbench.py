@@ -111,6 +111,24 @@ def test_presets_are_the_librarys(open_workbench: Open) -> None:
         assert cp.Engine.from_json(page.evaluate(take, name)) == cp.Engine.preset(name), name
 
 
+def test_own_engines_of_two_cranks(open_workbench: Open) -> None:
+    cylinder = cp.Cylinder.from_bore_stroke(
+        bore=0.086, stroke=0.086, rod_length=0.145, reciprocating_mass=0.45
+    )
+    page = open_workbench("#kind=square_four")
+    type_in(page, distance="110 mm")
+    assert engine(page) == cp.Engine.square_four(cylinder, spacing=0.1, distance=0.11)
+    choose(page, kind="opposed_pistons", ratio="1", strokes="2")
+    type_in(page, throws_deg="0, 120, 240", distance="500 mm", lead_deg="12")
+    throws: Any = {"throws_deg": [0, 120, 240], "spacing": 0.1}
+    opposed = cp.Engine.opposed_pistons(cylinder, **throws, distance=0.5, lead_deg=12)
+    assert engine(page) == opposed
+    choose(page, kind="u", ratio="-1", strokes="4")
+    type_in(page, throws_deg="0, 120, 240", phase_deg="360/7", firing_order="")
+    geared = cp.Engine.u(cylinder, **throws, distance=0.5, phase_deg="360/7")
+    assert engine(page) == geared
+
+
 def test_270_degree_twin(open_workbench: Open) -> None:
     page = open_workbench("#preset=i2-360")
     type_in(page, throws_deg="0, 90")
