@@ -68,7 +68,10 @@ OF_LOADS: dict[Any, str] = {
 }
 """The same of fields of a periodic load."""
 
-KINDS = ("inline", "vee", "flat", "boxer", "radial")
+KINDS = (
+    *("inline", "vee", "flat", "boxer", "radial"),
+    *("opposed_pistons", "u", "square_four", "h"),
+)
 """Builders that are kinds of the form under their names; other presets are typed as files are."""
 
 GROUPS = {
