@@ -81,6 +81,8 @@ GROUPS = {
     "Flat": ("boxer-", "flat-"),
     "Radial": ("radial-",),
     "VR and W": ("vr", "w8", "w12", "w16"),
+    "Several cranks, opposed pistons": ("opposed-piston", "delta-", "rg500", "h-16"),
+    "Ships, compressors, railways": ("marine-", "compressor-", "locomotive-"),
     "From papers": ("ijesc-",),
 }
 """Headings of the list of presets → how their names begin."""

@@ -109,6 +109,11 @@ def test_presets_are_the_librarys(open_workbench: Open) -> None:
     }"""
     for name in cp.presets():
         assert cp.Engine.from_json(page.evaluate(take, name)) == cp.Engine.preset(name), name
+    listed = page.locator("[data-field=preset] optgroup option").evaluate_all(
+        "options => options.map(({ value }) => value)"
+    )
+    own_parts = {name for name in cp.presets() if name.endswith(presets.OWN_PARTS)}
+    assert sorted(listed) == sorted({*cp.presets()} - own_parts)
 
 
 def test_own_engines_of_two_cranks(open_workbench: Open) -> None:
