@@ -233,6 +233,8 @@ def _text(key: str, value: object) -> str:
         return ", ".join(_text(key, each) for each in value)
     if key == "rotating_mass":
         return _mass(float(str(value)))
+    if key == "distance":
+        return _length(float(str(value)))
     return str(value)
 
 
