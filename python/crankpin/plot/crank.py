@@ -136,6 +136,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     # The layout may make the axes smaller yet.
     width = 2.0 * limit + apart * (len(cranks) - 1)
     scale = 0.8 * 72.0 * inches_of(ax) / width
+    lines = 1
     for crank, centre in centres.items():
         circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
         ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
@@ -144,14 +145,22 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
             text = listed(cylinders)
             if len(cranks) > 1:  # there is little room between stars
-                text = re.sub("(, [^,]+), ", r"\1,\n", text)
+                on_a_line = "(, [^,]+), " if len(cranks) == 2 else "([^,]+), "
+                text = re.sub(on_a_line, r"\1,\n", text)
+            lines = max(lines, text.count("\n") + 1)
             outside(ax, centre + reach * at, text, centre)
-        if len(cranks) > 1:
-            text = plain_text(crank_text(engine, crank))
-            write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
+    # Below the numbers of pins.
+    line = LINE_HEIGHT * FontProperties(size="small").get_size_in_points()
+    below = 9.0 + line * lines
+    for crank, centre in centres.items() if len(cranks) > 1 else ():
+        text = plain_text(crank_text(engine, crank))
+        write(ax, text, centre - 1j * reach, -1j * below, va="top", fontsize="x-small")
     ax.set_aspect("equal")
     ax.set_xlim(-limit, width - limit)
-    ax.set_ylim(-limit if len(cranks) == 1 else -1.3 * limit, limit)
+    if len(cranks) == 1:
+        ax.set_ylim(-limit, limit)
+    else:
+        ax.set_ylim(-reach - (below + line) / scale, reach + below / scale)
     ax.set_axis_off()
 
 
@@ -259,12 +268,21 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
             name, end = plain_text(crank_text(engine, crank)), complex(back + 2.0 * thick, line)
             write(ax, name, end, 4.0 + 0j, ha="left", fontsize="x-small")
     to_scale = pitch > 0.5 * crank_radius(engine)
+    if len(lines) > 1:  # their numbers need the width
+        height = lines[min(lines)] + reach - low
+        scale = 0.7 * 72.0 * inches_of(ax, "height") / height
+        widest = max(
+            points_of(ax, listed(stretch.pin.cylinders), FontProperties(size="small"))
+            for throw in drawn
+            for stretch in throw
+        )
+        to_scale &= widest <= 0.9 * pitch * scale
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
     (upright,) = in_units(ax.yaxis, units.headed("y", "m"))
     ax.set_ylabel(upright if len(lines) == 1 else f"{upright}, cranks apart")
-    scale = "" if to_scale else " (not to the scale of y)"
-    (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), scale))
+    said = "" if to_scale else " (not to the scale of y)"
+    (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), said))
     ax.set_xlabel(along)
 
 
