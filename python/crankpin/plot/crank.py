@@ -263,20 +263,10 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
     low = _loads(engine, ax, ink, lines, min(lines.values()) - reach, (front, back))
     ax.update_datalim([(front - thick, low), (back + 3.0 * thick, lines[min(lines)] + reach)])
-    if len(lines) > 1:
-        for crank, line in lines.items():
-            name, end = plain_text(crank_text(engine, crank)), complex(back + 2.0 * thick, line)
-            write(ax, name, end, 4.0 + 0j, ha="left", fontsize="x-small")
     to_scale = pitch > 0.5 * crank_radius(engine)
-    if len(lines) > 1:  # their numbers need the width
-        height = lines[min(lines)] + reach - low
-        scale = 0.7 * 72.0 * inches_of(ax, "height") / height
-        widest = max(
-            points_of(ax, listed(stretch.pin.cylinders), FontProperties(size="small"))
-            for throw in drawn
-            for stretch in throw
-        )
-        to_scale &= widest <= 0.9 * pitch * scale
+    if len(lines) > 1:
+        _name_cranks(engine, ax, lines, back + 2.0 * thick)
+        to_scale &= _fit_in_height(ax, drawn, pitch, lines[min(lines)] + reach - low)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
     (upright,) = in_units(ax.yaxis, units.headed("y", "m"))
@@ -284,6 +274,20 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     said = "" if to_scale else " (not to the scale of y)"
     (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), said))
     ax.set_xlabel(along)
+
+
+def _name_cranks(engine: Engine, ax: Axes, lines: dict[int, float], z: float) -> None:
+    """Write which crank is which, beyond the flywheels."""
+    for crank, line in lines.items():
+        name = plain_text(crank_text(engine, crank))
+        write(ax, name, complex(z, line), 4.0 + 0j, ha="left", fontsize="x-small")
+
+
+def _fit_in_height(ax: Axes, drawn: list[list[Stretch]], pitch: float, height: float) -> bool:
+    """Return whether numbers of pins have room between throws at the scale of the axes' height."""
+    font = FontProperties(size="small")
+    widest = max(points_of(ax, listed(pin.cylinders), font) for throw in drawn for pin, *_ in throw)
+    return widest <= 0.9 * pitch * 0.7 * 72.0 * inches_of(ax, "height") / height
 
 
 def _lines(engine: Engine) -> dict[int, float]:
