@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.analysis.geometry import geometry
+from crankpin.analysis.geometry import assumed_bores, geometry
 from crankpin.plot.crank import PIN_MARKS, UNBALANCES, WEIGHTS
 from crankpin.plot.section import CROSSHEADS, MOVING, piston_rods
 from crankpin.plot.shapes import listed
@@ -87,6 +87,7 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
 ) -> None:
     drawn = outlines(engine.plot(kind="section", theta_deg=100), MOVING)
     at = geometry(engine, 100.0)
+    rods = piston_rods(engine, at, assumed_bores(engine)).lengths
     front_first = np.argsort(engine.z, kind="stable")
     assert len(drawn) == 4 * len(engine)
     for j, k in enumerate(front_first):
@@ -94,9 +95,10 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
         size = engine.cylinders[k].rod_length
         assert middle(wrist) == pytest.approx(at.wrist_pin[k], abs=1e-12 * size)
         assert middle(pin) == pytest.approx(at.crankpin[k], abs=1e-12 * size)
-        # The piston is a rectangle about the bore's axis, and around its pin.
-        along = ((piston - at.wrist_pin[k]) / at.along[k]).real
-        across = ((piston - at.wrist_pin[k]) / at.along[k]).imag
+        # The piston is a rectangle about the bore's axis, and around its pin or beyond a crosshead.
+        centre = at.wrist_pin[k] + rods[k] * at.along[k]
+        along = ((piston - centre) / at.along[k]).real
+        across = ((piston - centre) / at.along[k]).imag
         assert along.min() < 0.0 < along.max()
         assert across.min() == pytest.approx(-across.max())
         # The rod goes from pin to pin.
