@@ -57,6 +57,8 @@ DECLARING: dict[Any, str] = {
     cp.Engine.vee: "throws_deg bank_angle_deg pin_split_deg spacing bank_stagger absent odd_bank "
     "numbering rotating_mass firing_order strokes",
     cp.Engine.radial: "cylinders rows",
+    cp.Engine.u: "distance phase_deg ratio",
+    cp.Engine.opposed_pistons: "lead_deg",
     cp.Engine.from_lists: "bank_deg tdc_deg z",
     cp.flywheel: "inertia",
 }
@@ -66,7 +68,10 @@ OF_LOADS: dict[Any, str] = {
 }
 """The same of fields of a periodic load."""
 
-KINDS = ("inline", "vee", "flat", "boxer", "radial")
+KINDS = (
+    *("inline", "vee", "flat", "boxer", "radial"),
+    *("opposed_pistons", "u", "square_four", "h"),
+)
 """Builders that are kinds of the form under their names; other presets are typed as files are."""
 
 GROUPS = {
@@ -76,6 +81,8 @@ GROUPS = {
     "Flat": ("boxer-", "flat-"),
     "Radial": ("radial-",),
     "VR and W": ("vr", "w8", "w12", "w16"),
+    "Several cranks, opposed pistons": ("opposed-piston", "delta-", "rg500", "h-16"),
+    "Ships, compressors, railways": ("marine-", "compressor-", "locomotive-"),
     "From papers": ("ijesc-",),
 }
 """Headings of the list of presets → how their names begin."""
@@ -226,6 +233,8 @@ def _text(key: str, value: object) -> str:
         return ", ".join(_text(key, each) for each in value)
     if key == "rotating_mass":
         return _mass(float(str(value)))
+    if key == "distance":
+        return _length(float(str(value)))
     return str(value)
 
 

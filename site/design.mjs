@@ -242,7 +242,7 @@ function valueOf(core, name, text, units, kind) {
     if (field.optional || (kind === "radial" && name === "spacing")) return null;
     throw new TypingError(name, typed, `give the ${field.label.toLowerCase()}`);
   }
-  if (field.choices) return name === "strokes" ? Number(typed) : typed;
+  if (field.choices) return field.whole ? Number(typed) : typed;
   if (field.text) return typed;
   const read = (unit, form, what) => quantity(core, typed, { unit, plain: plainUnit(unit, units), name, form, what });
   if (field.whole) {

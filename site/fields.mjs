@@ -37,13 +37,17 @@ export const FIELDS = {
   numbering: { label: "Numbering", choices: { alternating: "from bank to bank", "by-bank": "bank by bank" } },
   cylinders: declared("cylinders", { label: "Cylinders", whole: true }),
   rows: declared("rows", { label: "Rows", whole: true, optional: true }),
+  distance: declared("distance", { label: "Distance of the cranks", said: "of the second crank to the right of the main one, or above it" }),
+  lead_deg: declared("lead_deg", { label: "Lead of the upper crank", optional: true, range: [-180, 180, 0.5] }),
+  phase_deg: declared("phase_deg", { label: "Phase of the second engine", optional: true, range: [-360, 360, 0.5] }),
+  ratio: declared("ratio", { label: "The second crank turns", whole: true, choices: { 1: "with the main one", "-1": "against it" } }),
   bank_deg: declared("bank_deg", { label: "Bores", listed: true }),
   tdc_deg: declared("tdc_deg", { label: "Top dead centres", listed: true }),
   z: declared("z", { label: "Places along the crank", listed: true }),
   firing_order: declared("firing_order", { label: "Firing order", text: true, optional: true, said: "such as 1-3-4-2" }),
   gas: { label: "Gas pressure", choices: { "": "not counted", ...GASES } },
   inertia: declared("inertia", { label: "Flywheel inertia", optional: true }),
-  strokes: { label: "Cycle", choices: { 4: "four-stroke", 2: "two-stroke" } },
+  strokes: { label: "Cycle", whole: true, choices: { 4: "four-stroke", 2: "two-stroke" } },
 };
 
 const BY_ORDER = "order: size, size@phase° or complex, such as 2: 8, 4: 1.5@-30, 6: 4-1j; order 0 is the mean";
@@ -77,6 +81,7 @@ export const NEW_LOAD = { name: "load", on: "shaft", torque: "2: 10" };
 const OF_A_CYLINDER = ["bore", "stroke", "rod_length", "reciprocating_mass", "rotating_mass", "pin_offset"];
 const FIRING = ["firing_order", "strokes", "gas", "inertia"];
 const BANKS = ["spacing", "bank_stagger", "odd_bank", "numbering"];
+const SECOND_CRANK = ["spacing", "distance", "ratio"];
 
 /** Kinds of engines: builders of the library, what they take besides the parts of a cylinder, and what of it `begins` otherwise. */
 export const KINDS = {
@@ -89,6 +94,13 @@ export const KINDS = {
     begins: { bank_deg: "30, 90, 150" },
   },
   radial: { label: "Radial", fields: ["cylinders", "rows", "spacing", ...FIRING] },
+  opposed_pistons: {
+    label: "Opposed pistons, two cranks", fields: ["throws_deg", ...SECOND_CRANK, "lead_deg", ...FIRING],
+    begins: { distance: "500 mm", ratio: "1", strokes: "2" },
+  },
+  u: { label: "U, two cranks side by side", fields: ["throws_deg", ...SECOND_CRANK, "phase_deg", ...FIRING] },
+  square_four: { label: "Square four", fields: [...SECOND_CRANK, ...FIRING] },
+  h: { label: "H, two flat engines", fields: ["throws_deg", ...SECOND_CRANK, "phase_deg", ...FIRING], begins: { distance: "220 mm" } },
   lists: { label: "Cylinder by cylinder", fields: ["bank_deg", "tdc_deg", "z", ...FIRING] },
 };
 
@@ -100,6 +112,6 @@ export const groupsOf = (kind) => [
 /** What a field has until something is typed. */
 export const DEFAULTS = {
   name: "", bore: "86 mm", stroke: "86 mm", rod_length: "145 mm", reciprocating_mass: "450 g", spacing: "100 mm",
-  throws_deg: "0", bank_angle_deg: "90", cylinders: "7", bank_deg: "90", tdc_deg: "0", z: "0 mm",
+  throws_deg: "0", distance: "120 mm", ratio: "-1", bank_angle_deg: "90", cylinders: "7", bank_deg: "90", tdc_deg: "0", z: "0 mm",
   odd_bank: "right", numbering: "alternating", strokes: "4", gas: "", inertia: "",
 };

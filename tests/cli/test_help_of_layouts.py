@@ -12,7 +12,7 @@ from pathlib import Path
 import crankpin as cp
 import pytest
 from crankpin.cli import main
-from crankpin.cli.new import BUILDERS, LAYOUT
+from crankpin.cli.new import BUILDERS, LAYOUT, SWITCHES
 from crankpin.model import presets
 from support import in_turn
 
@@ -63,11 +63,13 @@ SOUND = {
     "--lead": "--lead 12",
     "--strokes": "--strokes 4",
     "--shared-pins": "--shared-pins",
+    "--one-crankshaft": "--one-crankshaft",
     "--suction": f"--bore 80mm {WHOLE} --suction 1bar --discharge 4bar --strokes 2",
     "--discharge": f"--bore 80mm {WHOLE} --discharge 4bar --strokes 2",
     "--clearance": f"--bore 80mm {WHOLE} --clearance 0.15 --discharge 4bar --strokes 2",
     "--exponent": f"--bore 80mm {WHOLE} --exponent 1.25 --discharge 4bar --strokes 2",
     "--rod-diameter": f"--bore 80mm {WHOLE} --rod-diameter 10mm --discharge 4bar --strokes 2",
+    "--double-acting": f"--bore 80mm {WHOLE} --double-acting --discharge 4bar --strokes 2",
     "--crosshead-mass": "--crosshead-mass 0.3",
     "--body": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000",
     "--mount": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000:0.1",
@@ -159,8 +161,8 @@ def test_no_option_is_taken_that_the_help_of_a_kind_lacks(
     kind: str, capsys: CAPTURE, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for flag in {*LAYOUT, "--shared-pins", "--dummy"} - {*listed(kind), "--spacing"}:
-        value = [] if flag == "--shared-pins" else ["90"]
+    for flag in {*LAYOUT, *SWITCHES, "--dummy"} - {*listed(kind), "--spacing"}:
+        value = [] if flag in SWITCHES else ["90"]
         assert main(["new", kind, *LINES.get(kind, "").split(), flag, *value]) == 2
         assert flag in capsys.readouterr().err
 

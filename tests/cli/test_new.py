@@ -167,6 +167,51 @@ def test_a_builder_is_a_kind(capsys: CAPTURE, kind: str) -> None:
     assert made(capsys, f"{kind} {typed} {PARTS}") == expected
 
 
+def test_side_rods_drive_the_upper_pistons(capsys: CAPTURE) -> None:
+    """Figures of the upper pistons follow those of the lower ones."""
+    line = (
+        "opposed-pistons --one-crankshaft --throws 0,180 --spacing 1.6 --lead 5 --bore 600mm "
+        "--stroke 1.4,1.4,1,1 --rod-length 2.4,2.4,2.8,2.8 --firing-order 1-2 "
+        "--reciprocating-mass 3500,3501,4900,4901 --rotating-mass 100,101,102,103"
+    )
+    lower, upper = (
+        [cp.Cylinder(radius, rod, mass + k, bore=0.6) for k in (0, 1)]
+        for radius, rod, mass in ((0.7, 2.4, 3500), (0.5, 2.8, 4900))
+    )
+    typed: dict[str, Any] = {
+        "throws_deg": [0, 180], "spacing": 1.6, "lead_deg": 5, "firing_order": "1-2",
+        "rotating_mass": [100, 101, 102, 103],
+    }  # fmt: skip
+    expected = cp.Engine.opposed_pistons(lower, upper=upper, one_crankshaft=True, **typed)
+    assert made(capsys, line) == expected
+    assert expected.rotating_mass.tolist() == [100, 101, 102, 103]
+    two = line.replace("--one-crankshaft", "--distance 7")
+    assert made(capsys, two) == cp.Engine.opposed_pistons(lower, upper=upper, distance=7, **typed)
+    alike = "opposed-pistons --one-crankshaft --throws 0 --spacing 1 --stroke 1 --rod-length 2"
+    one = cp.Cylinder(0.5, 2.0, 10)
+    assert made(capsys, f"{alike} --reciprocating-mass 10") == cp.Engine.opposed_pistons(
+        one, upper=one, throws_deg=[0], spacing=1, one_crankshaft=True
+    )
+    preset = made(capsys, "opposed-piston-3")
+    assert preset.chambers == ((1, 4), (2, 5), (3, 6))
+    assert [one.side_rods for one in preset.cylinders] == [False] * 3 + [True] * 3
+    assert main(["new", "inline", "--throws", "0", "--one-crankshaft"]) == 2
+    assert "--one-crankshaft does not apply to inline: side rods" in capsys.readouterr().err
+
+
+def test_double_acting_needs_no_rod(capsys: CAPTURE) -> None:
+    line = "compressor --throws 0,180 --spacing 0.3 --bore 300mm --stroke 250mm --rod-length 625mm"
+    line += " --reciprocating-mass 200 --discharge 4bar"
+    both = made(capsys, f"{line} --double-acting")
+    one = both.cylinders[0]
+    ends = [cp.Cycle.compressor(one, discharge=4e5, end=end) for end in ("head", "crank")]
+    assert (both.cycles, both.crank_ends) == ((ends[0],) * 2, (ends[1],) * 2)
+    assert not both.rod_diameter.any()
+    assert made(capsys, line).crank_ends is None
+    assert main(["new", *line.split()[:-2], "--double-acting"]) == 2
+    assert "--discharge" in capsys.readouterr().err
+
+
 def test_lists_have_a_figure_for_each_cylinder(capsys: CAPTURE) -> None:
     common = "--bore 100mm --stroke 90mm --rod-length 150mm --spacing 0.1"
     rods = "--small-end 165g --big-end 410g,411g,410g,410g"

@@ -308,6 +308,7 @@ ZERO = {  # orders of force, orders of moment
     "radial-14": ([1, 2, 4, 6, 8], [2, 4]),  # rows pull against each other at order 1
     "w16": ([1, 2, 6], [2, 6]),
     "opposed-piston-6": ([1, 2, 4], [1]),  # two sixes, one 11° ahead
+    "opposed-piston-3": ([1, 2, 4], [1]),  # order 1 within each bore
     "delta-18": ([1, 2, 4], [1]),
     "rg500": ([1], [1, 2, 4]),
     "compressor-4": ([1, 2, 4], [2]),  # pairs in mirror image

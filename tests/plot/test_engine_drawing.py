@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin.analysis.geometry import geometry
+from crankpin.analysis.geometry import assumed_bores, geometry
 from crankpin.plot.crank import PIN_MARKS, UNBALANCES, WEIGHTS
-from crankpin.plot.section import MOVING
+from crankpin.plot.section import CROSSHEADS, MOVING, piston_rods
 from crankpin.plot.shapes import listed
 from matplotlib import pyplot as plt
 from support import in_turn
@@ -87,6 +87,7 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
 ) -> None:
     drawn = outlines(engine.plot(kind="section", theta_deg=100), MOVING)
     at = geometry(engine, 100.0)
+    rods = piston_rods(engine, at, assumed_bores(engine)).lengths
     front_first = np.argsort(engine.z, kind="stable")
     assert len(drawn) == 4 * len(engine)
     for j, k in enumerate(front_first):
@@ -94,14 +95,61 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
         size = engine.cylinders[k].rod_length
         assert middle(wrist) == pytest.approx(at.wrist_pin[k], abs=1e-12 * size)
         assert middle(pin) == pytest.approx(at.crankpin[k], abs=1e-12 * size)
-        # The piston is a rectangle about the bore's axis, and around its pin.
-        along = ((piston - at.wrist_pin[k]) / at.along[k]).real
-        across = ((piston - at.wrist_pin[k]) / at.along[k]).imag
+        # The piston is a rectangle about the bore's axis, and around its pin or beyond a crosshead.
+        centre = at.wrist_pin[k] + rods[k] * at.along[k]
+        along = ((piston - centre) / at.along[k]).real
+        across = ((piston - centre) / at.along[k]).imag
         assert along.min() < 0.0 < along.max()
         assert across.min() == pytest.approx(-across.max())
         # The rod goes from pin to pin.
         assert abs(rod - at.crankpin[k]).min() < 0.5 * size
         assert abs(rod - at.wrist_pin[k]).min() < 0.5 * size
+
+
+DOUBLE_ACTING = cp.Engine.opposed_throws(
+    cp.Cylinder(0.125, 0.625, 180.0, bore=0.3), throws_deg=[0, 180], spacing=0.32, strokes=2
+).with_cycle(cp.Cycle.example("diesel", strokes=2), double_acting=True, rod_diameter=0.06)
+SIDE_RODS = cp.Engine.opposed_pistons(
+    cp.Cylinder(0.5, 2.0, 3000.0, bore=0.6), upper=cp.Cylinder(0.38, 2.6, 3900.0, bore=0.6),
+    throws_deg=[0, 120, 240], spacing=1.4, lead_deg=8, one_crankshaft=True,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", [DOUBLE_ACTING, SIDE_RODS], ids=["crank ends", "side rods"])
+def test_pistons_on_crossheads_stay_in_their_cylinders(engine: cp.Engine) -> None:
+    """Crossheads outside: the piston rod is as long at every angle, and pistons never meet."""
+    rods = set()
+    for theta in np.arange(0.0, 360.0, 7.5):
+        ax = engine.plot(kind="section", theta_deg=theta)
+        at, bores = geometry(engine, theta), [one.bore or 0.0 for one in engine.cylinders]
+        drawn, joined = outlines(ax, MOVING), outlines(ax, CROSSHEADS)
+        cylinder = piston_rods(engine, at, np.array(bores))
+        assert len(joined) == sum(5 if one.side_rods else 2 for one in engine.cylinders)
+        ends = {}
+        for j, k in enumerate(np.argsort(engine.z, kind="stable")):
+            piston = ((drawn[4 * j] - at.foot[k]) / at.along[k]).real
+            ends[int(k)] = piston.min(), piston.max()
+            crosshead = ((at.wrist_pin[k] - at.foot[k]) / at.along[k]).real
+            rods.add((int(k), round(piston.min() - crosshead, 9)))
+            bore = [m - 1 for n in engine.chambers if k + 1 in n for m in n]
+            low, high = min(cylinder.low[bore]), max(cylinder.high[bore])
+            assert crosshead < low < piston.min() < piston.max() < high
+        for lower, *upper in engine.chambers:
+            assert all(ends[lower - 1][1] < ends[k - 1][0] for k in upper)
+        for beam in joined[5::7] if engine is SIDE_RODS else ():
+            assert beam.imag.min() > cylinder.high.max()
+        plt.close("all")
+    assert len(rods) == len(engine)
+
+
+def test_crank_ends_are_closed_and_side_rods_open() -> None:
+    for engine, corners in ((DOUBLE_ACTING, {5}), (SIDE_RODS, {2})):
+        walls = [
+            line
+            for line in engine.plot(kind="section").lines
+            if line.get_linewidth() == 1.2 and line.get_linestyle() == "-"
+        ]
+        assert {len(line.get_xdata()) for line in walls} == corners
 
 
 @pytest.mark.slow
@@ -292,8 +340,7 @@ CROWDED = ("w12", "w16", "v16-45", "v14-9.13", "v4-narrow", "vr6", "i6")
 @pytest.mark.slow
 @in_turn(
     ("engine", "size", "font"),
-    # Those of 36 pistons do not fit a page's width.
-    [(engine, (7.2, 5.6), 10.0) for engine in ENGINES if len(engine) < 36]
+    [(engine, (7.2, 5.6), 10.0) for engine in ENGINES]
     + [(engine, (3.4, 3.2), 7.0) for engine in (*map(cp.Engine.preset, CROWDED), RADIAL, FITTED)],
 )
 def test_no_numbers_overlap(engine: cp.Engine, size: tuple[float, float], font: float) -> None:

@@ -693,6 +693,61 @@ def test_link_rods_reach_from_their_knuckles_to_their_pistons(open_engine: Open)
     assert len(drawn) == 9
 
 
+INSIDE = """() => {
+    const scene = document.querySelector(".scene.cross");
+    const box = (each) => each.getBoundingClientRect();
+    const [up, down] = [(each) => box(each).top, (each) => box(each).bottom];
+    const visible = (each) => !each.hasAttribute("hidden");
+    return {
+        pistons: [...scene.querySelectorAll(".piston")].map((each) => [up(each), down(each)]),
+        bores: [...scene.querySelectorAll(".bore")].filter(visible)
+            .map((each) => [up(each), down(each)]),
+        yokes: [...scene.querySelectorAll(".crosshead")].map((each) =>
+            [...each.querySelectorAll(".rod")].map((bar) => [up(bar), down(bar)])),
+    };
+}"""
+"""Upper and lower ends of what the cross-section draws."""
+
+
+@pytest.mark.parametrize("has_side_rods", [False, True], ids=["crank ends", "side rods"])
+def test_crossheads_stay_outside_the_cylinder(open_engine: Open, has_side_rods: bool) -> None:
+    """One cylinder upright: its crosshead below, of side rods another and a beam above."""
+    lower, upper = (cp.Cylinder(radius, 0.5, 5.0, bore=0.12) for radius in (0.1, 0.07))
+    engine = (
+        cp.Engine.opposed_pistons(
+            lower, upper=upper, throws_deg=[0], spacing=0.3, lead_deg=8, one_crankshaft=True
+        )
+        if has_side_rods
+        else cp.Engine.inline(
+            lower, throws_deg=[0], spacing=0.3, strokes=2, firing_order="1"
+        ).with_cycle(cp.Cycle.example("diesel", strokes=2), double_acting=True, rod_diameter=0.03)
+    )
+    page = open_engine(engine)
+    ends = set()
+    for angle in range(0, 360, 15):
+        page.get_by_label("crank angle").fill(f"{angle}")
+        drawn = page.evaluate(INSIDE)
+        ((top, bottom),) = drawn["bores"]
+        for above, below in drawn["pistons"]:
+            assert top < above < below < bottom
+        (crosshead, stem), *others = drawn["yokes"]
+        assert crosshead[0] > bottom
+        assert stem[0] < drawn["pistons"][0][1]  # reaches its piston
+        if has_side_rods:
+            lowest, highest = drawn["pistons"]
+            assert highest[1] < lowest[0] + 1.0
+            ((frame, _),) = others
+            assert frame[0] < top
+            assert frame[1] > bottom
+        else:
+            band = page.locator(".scene.cross .piston > g").get_attribute("class")
+            piston = page.locator(".scene.cross .piston").get_attribute("class") or ""
+            ends.add((piston.removeprefix("piston "), band))
+    assert ends == (
+        set() if has_side_rods else {("power", "compression"), ("compression", "power")}
+    )
+
+
 def test_each_crank_is_drawn_with_its_sense(open_engine: Open) -> None:
     page = open_engine(square_four())
     circles = page.eval_on_selector_all(

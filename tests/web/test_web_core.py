@@ -232,6 +232,17 @@ def test_builders_are_the_librarys(ask: Ask) -> None:
     ):
         calls.append(("build", {"kind": kind, **parts, **given}))
         expected.append(builder(CYLINDER, **given))  # type: ignore[arg-type]
+    twin: dict[str, Any] = {"throws_deg": [0, "360/7"], "spacing": 0.1, "distance": 0.3}
+    machines: tuple[tuple[str, dict[str, Any]], ...] = (
+        ("opposed_pistons", {**twin, "lead_deg": 12}),
+        ("opposed_pistons", {**twin, "ratio": -1, "strokes": 4}),
+        ("u", {**twin, "phase_deg": "360/7"}),
+        ("h", {**twin, "ratio": 1, "phase_deg": 90, "strokes": 2}),
+        ("square_four", {"spacing": 0.1, "distance": 0.12, "first_tdc_deg": 7}),
+    )
+    for kind, given in machines:
+        calls.append(("build", {"kind": kind, **parts, **given}))
+        expected.append(getattr(cp.Engine, kind)(CYLINDER, **given))
     for rows, cylinders in [(1, 7), (2, 14), (2, 18), (4, 28), (2, 12), (3, 9)]:
         for strokes in (4, 2):
             figures = {"cylinders": cylinders, "rows": rows, "spacing": 0.2, "strokes": strokes}

@@ -38,11 +38,12 @@ UNLABELLED = """() => [...document.querySelectorAll(".bench :is(input, select, b
 BUILDERS: dict[str, Any] = {
     "inline": cp.Engine.inline, "vee": cp.Engine.vee, "flat": cp.Engine.flat,
     "boxer": cp.Engine.boxer, "fan": cp.Engine.from_banks, "radial": cp.Engine.radial,
-    "lists": cp.Engine.from_lists,
+    "opposed_pistons": cp.Engine.opposed_pistons, "u": cp.Engine.u,
+    "square_four": cp.Engine.square_four, "h": cp.Engine.h, "lists": cp.Engine.from_lists,
 }  # fmt: skip
 """Kind of the form → the builder that takes its fields."""
 ELSEWHERE = {
-    "cylinder", "rotating_mass", "name", "source",  # of every kind
+    "cylinder", "upper", "one_crankshaft", "rotating_mass", "name", "source",  # of every kind
     "first_tdc_deg", "counterweights", "shafts", "mains", "reference_z", "pin_deg", "cranks",
     "crank", "rods", "master",  # of engine files
 }  # fmt: skip
@@ -108,6 +109,29 @@ def test_presets_are_the_librarys(open_workbench: Open) -> None:
     }"""
     for name in cp.presets():
         assert cp.Engine.from_json(page.evaluate(take, name)) == cp.Engine.preset(name), name
+    listed = page.locator("[data-field=preset] optgroup option").evaluate_all(
+        "options => options.map(({ value }) => value)"
+    )
+    own_parts = {name for name in cp.presets() if name.endswith(presets.OWN_PARTS)}
+    assert sorted(listed) == sorted({*cp.presets()} - own_parts)
+
+
+def test_own_engines_of_two_cranks(open_workbench: Open) -> None:
+    cylinder = cp.Cylinder.from_bore_stroke(
+        bore=0.086, stroke=0.086, rod_length=0.145, reciprocating_mass=0.45
+    )
+    page = open_workbench("#kind=square_four")
+    type_in(page, distance="110 mm")
+    assert engine(page) == cp.Engine.square_four(cylinder, spacing=0.1, distance=0.11)
+    choose(page, kind="opposed_pistons", ratio="1", strokes="2")
+    type_in(page, throws_deg="0, 120, 240", distance="500 mm", lead_deg="12")
+    throws: Any = {"throws_deg": [0, 120, 240], "spacing": 0.1}
+    opposed = cp.Engine.opposed_pistons(cylinder, **throws, distance=0.5, lead_deg=12)
+    assert engine(page) == opposed
+    choose(page, kind="u", ratio="-1", strokes="4")
+    type_in(page, throws_deg="0, 120, 240", phase_deg="360/7", firing_order="")
+    geared = cp.Engine.u(cylinder, **throws, distance=0.5, phase_deg="360/7")
+    assert engine(page) == geared
 
 
 def test_270_degree_twin(open_workbench: Open) -> None:

@@ -145,6 +145,18 @@ LAYOUT = {
 }
 """Option → the argument of a builder that it gives."""
 
+SWITCHES = {
+    "--shared-pins": (
+        _of_shape(Engine.from_firing_order, "shared_pins"),
+        "pins follow from a firing order in new firing-order alone; leave it out",
+    ),
+    "--one-crankshaft": (
+        _of_shape(Engine.opposed_pistons, "one_crankshaft"),
+        "side rods drive the upper ones of opposed pistons alone; leave it out",
+    ),
+}
+"""Option without a value → the argument of a builder that it makes true, and a hint for others."""
+
 LENGTHS = {
     "--bore": "diameter of the bore",
     "--stroke": "stroke",
@@ -174,8 +186,7 @@ def _refused(typed: argparse.Namespace) -> set[str]:
         return set()
     base = _layout(typed.kind)
     refused = {*LAYOUT} - {*_flags(base)}
-    if "shared_pins" not in _names(base):
-        refused.add("--shared-pins")
+    refused |= {flag for flag, (one, _) in SWITCHES.items() if one.argument not in _names(base)}
     if base.builder == "from_firing_order":
         refused.add("--dummy")
     if typed.kind not in BUILDERS and len(base.arguments.get("throws_deg", ())) == 1:
@@ -227,6 +238,12 @@ COMPRESSOR_OPTIONS = (
         metavar="LENGTH",
         help="diameter of the piston rods, which makes the cylinders double acting",
     ),
+    option(
+        "--double-acting",
+        group=COMPRESSING,
+        action="store_true",
+        help="the cycle acts at the crank ends too",
+    ),
 )
 """The function of these options; a method is another object each time."""
 
@@ -253,7 +270,7 @@ COMPRESSOR_OPTIONS = (
         help="dummy pistons, which balance and do not fire",
     ),
     *LAYOUT.values(),
-    _of_shape(Engine.from_firing_order, "shared_pins"),
+    *(one for one, _ in SWITCHES.values()),
     *COMPRESSOR_OPTIONS,
     option(
         "--body",
@@ -311,11 +328,12 @@ def _new(call: Given) -> str:
 def _compressing(call: Given, engine: Engine) -> Engine:
     """Return an engine with the cycle of a compressor, if one is given, at one end or at both."""
     figures, rod = call.keywords(COMPRESSOR), call.optional("--rod-diameter", "m")
+    double = rod is not None or bool(call.text("--double-acting"))
     if "discharge" not in figures:
-        if figures or rod is not None:
+        if figures or double:
             raise inputs.faulty("--discharge", "is left out", "the cycle of a compressor needs it")
         return engine
-    ends: list[Literal["head", "crank"]] = ["head"] if rod is None else ["head", "crank"]
+    ends: list[Literal["head", "crank"]] = ["head", "crank"] if double else ["head"]
     cycles = {
         one: [COMPRESSOR(one, end=end, **figures) for end in ends]
         for one in dict.fromkeys(engine.cylinders)
@@ -369,6 +387,8 @@ def _engine(
     changes = _changes(call, kind, base)
     if rotating is not None:
         changes["rotating_mass"] = rotating
+    if base.builder == "opposed_pistons":
+        cylinder = _lower(cylinder or base.cylinder, base.arguments | changes, changes)
     if "pin_split_deg" in changes or "bank_angle_deg" in changes:
         changes |= _split(base, changes)
     dummies = _dummies(call, base)
@@ -408,6 +428,20 @@ def _engine(
     if not engine.firing_order:
         notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
     return engine
+
+
+def _lower(
+    cylinder: Cylinder | list[Cylinder], arguments: dict[str, Any], changes: dict[str, Any]
+) -> Cylinder | list[Cylinder]:
+    """Return the parts of the lower pistons, and give those of the upper ones to the builder."""
+    count = len(arguments["throws_deg"])
+    upper = cylinder
+    if isinstance(cylinder, list) and len(cylinder) == 2 * count:
+        cylinder, upper = cylinder[:count], cylinder[count:]
+        changes["upper"] = upper
+    if arguments.get("one_crankshaft") and "upper" not in arguments:
+        changes["upper"] = upper
+    return cylinder
 
 
 def _check_count(call: Given, kind: str, base: presets.Layout, engine: Engine) -> None:
@@ -476,11 +510,11 @@ def _changes(call: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
             hint = f"does not apply to {kind}, which takes {', '.join(flags)}"
             raise rejected(flag, call.text(flag), hint)
         changes[figure.argument] = call.value(figure)
-    if call.text("--shared-pins"):
-        if "shared_pins" not in _names(base):
-            hint = "pins follow from a firing order in new firing-order alone; leave it out"
-            raise inputs.faulty("--shared-pins", f"does not apply to {kind}", hint)
-        changes["shared_pins"] = True
+    for flag, (one, hint) in SWITCHES.items():
+        if call.text(flag):
+            if one.argument not in _names(base):
+                raise inputs.faulty(flag, f"does not apply to {kind}", hint)
+            changes[one.argument] = True
     needed = [
         flag
         for flag, name in flags.items()

@@ -741,6 +741,8 @@ class Builders(EngineData):
             Speed of the second crank over that of the main one: 1 turns with it, -1 against it.
         one_crankshaft : bool, default False
             Whether side rods drive the upper pistons from the lower crank.
+        rotating_mass : float or array_like, optional
+            …; of twice as many as throws those of the upper cylinders follow.
         firing_order : str or sequence of int, optional
             …, of chambers.
         strokes : {2, 4}, default 2
@@ -774,13 +776,21 @@ class Builders(EngineData):
         (((1, 2),), 'zero, proved', '261.6 N')
         """
         layout: dict[str, Any] = {
-            "throws_deg": throws_deg, "spacing": spacing, "rotating_mass": rotating_mass,
-            "first_tdc_deg": first_tdc_deg, "strokes": strokes,
+            "throws_deg": throws_deg, "spacing": spacing, "first_tdc_deg": first_tdc_deg,
+            "strokes": strokes,
         }  # fmt: skip
-        above = lower = cls.inline(cylinder, **layout)
-        if upper is not None:
+        below = beyond = rotating_mass
+        if rotating_mass is not None:
+            count = len(inputs.angles("throws_deg", throws_deg))
+            masses = inputs.per_item("rotating_mass", rotating_mass, 2 * count)
+            if len(masses) == 2 * count:
+                below, beyond = masses[:count], masses[count:]
+        above = lower = cls.inline(cylinder, rotating_mass=below, **layout)
+        if upper is not None or below is not beyond:
             try:
-                above = cls.inline(upper, **layout)
+                above = cls.inline(
+                    cylinder if upper is None else upper, rotating_mass=beyond, **layout
+                )
             except InputError as error:
                 raise inputs.renamed(error, "cylinder", "upper") from None
         if inputs.flag("one_crankshaft", one_crankshaft):

@@ -588,6 +588,7 @@ class EngineData:
         force on a piston is then ``p_head·A - p_crank·(A - A_rod) - p_crankcase·A_rod``, of
         absolute pressures. The cycle of a crank end counts angles from where the piston is lowest;
         in a four-stroke it fires half a turn after the head end.
+        Firing orders and intervals are those of head ends alone.
 
         Parameters
         ----------

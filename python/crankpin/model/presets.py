@@ -161,6 +161,8 @@ class Layout(NamedTuple):
         one = cylinder if isinstance(cylinder, Cylinder) else cylinder[0]
         if one.rod is not None and "rotating_mass" not in changes:
             arguments.pop("rotating_mass", None)  # a rod brings its own
+        if isinstance(upper := arguments.get("upper"), dict):
+            arguments["upper"] = Cylinder(**upper) if cylinder == self.cylinder else cylinder
         if isinstance(rods := arguments.get("rods"), dict):
             arguments["rods"] = LinkRods(**rods)
         if "places" in arguments:  # in spacings, and a pin offset for each cylinder

@@ -136,6 +136,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     # The layout may make the axes smaller yet.
     width = 2.0 * limit + apart * (len(cranks) - 1)
     scale = 0.8 * 72.0 * inches_of(ax) / width
+    lines = 1
     for crank, centre in centres.items():
         circle = centre + largest * direction(np.linspace(0.0, 360.0, 181))
         ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
@@ -144,14 +145,22 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
         for at, cylinders in _numbers(ax, pins[crank], scale * reach).items():
             text = listed(cylinders)
             if len(cranks) > 1:  # there is little room between stars
-                text = re.sub("(, [^,]+), ", r"\1,\n", text)
+                on_a_line = "(, [^,]+), " if len(cranks) == 2 else "([^,]+), "
+                text = re.sub(on_a_line, r"\1,\n", text)
+            lines = max(lines, text.count("\n") + 1)
             outside(ax, centre + reach * at, text, centre)
-        if len(cranks) > 1:
-            text = plain_text(crank_text(engine, crank))
-            write(ax, text, centre - 1.1j * limit, -3.0j, va="top", fontsize="x-small")
+    # Below the numbers of pins.
+    line = LINE_HEIGHT * FontProperties(size="small").get_size_in_points()
+    below = 9.0 + line * lines
+    for crank, centre in centres.items() if len(cranks) > 1 else ():
+        text = plain_text(crank_text(engine, crank))
+        write(ax, text, centre - 1j * reach, -1j * below, va="top", fontsize="x-small")
     ax.set_aspect("equal")
     ax.set_xlim(-limit, width - limit)
-    ax.set_ylim(-limit if len(cranks) == 1 else -1.3 * limit, limit)
+    if len(cranks) == 1:
+        ax.set_ylim(-limit, limit)
+    else:
+        ax.set_ylim(-reach - (below + line) / scale, reach + below / scale)
     ax.set_axis_off()
 
 
@@ -254,18 +263,31 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
     _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
     low = _loads(engine, ax, ink, lines, min(lines.values()) - reach, (front, back))
     ax.update_datalim([(front - thick, low), (back + 3.0 * thick, lines[min(lines)] + reach)])
-    if len(lines) > 1:
-        for crank, line in lines.items():
-            name, end = plain_text(crank_text(engine, crank)), complex(back + 2.0 * thick, line)
-            write(ax, name, end, 4.0 + 0j, ha="left", fontsize="x-small")
     to_scale = pitch > 0.5 * crank_radius(engine)
+    if len(lines) > 1:
+        _name_cranks(engine, ax, lines, back + 2.0 * thick)
+        to_scale &= _fit_in_height(ax, drawn, pitch, lines[min(lines)] + reach - low)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
     (upright,) = in_units(ax.yaxis, units.headed("y", "m"))
     ax.set_ylabel(upright if len(lines) == 1 else f"{upright}, cranks apart")
-    scale = "" if to_scale else " (not to the scale of y)"
-    (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), scale))
+    said = "" if to_scale else " (not to the scale of y)"
+    (along,) = in_units(ax.xaxis, units.Text(units.headed("z", "m"), said))
     ax.set_xlabel(along)
+
+
+def _name_cranks(engine: Engine, ax: Axes, lines: dict[int, float], z: float) -> None:
+    """Write which crank is which, beyond the flywheels."""
+    for crank, line in lines.items():
+        name = plain_text(crank_text(engine, crank))
+        write(ax, name, complex(z, line), 4.0 + 0j, ha="left", fontsize="x-small")
+
+
+def _fit_in_height(ax: Axes, drawn: list[list[Stretch]], pitch: float, height: float) -> bool:
+    """Return whether numbers of pins have room between throws at the scale of the axes' height."""
+    font = FontProperties(size="small")
+    widest = max(points_of(ax, listed(pin.cylinders), font) for throw in drawn for pin, *_ in throw)
+    return widest <= 0.9 * pitch * 0.7 * 72.0 * inches_of(ax, "height") / height
 
 
 def _lines(engine: Engine) -> dict[int, float]:

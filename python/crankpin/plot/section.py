@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -49,6 +48,78 @@ CROWN = 0.32
 """Top of a piston above its pin, over the bore."""
 SKIRT = 0.26
 """Bottom of a piston below its pin, over the bore."""
+CROSSHEADS = "crankpin crossheads"
+"""Marks piston rods, crossheads and what joins these."""
+SLIPPER = 0.16
+"""Half the length of a crosshead along the bore, over the bore."""
+SIDE_RODS = 0.66
+"""Distance of side rods from the axis of the bore, over the bore."""
+GAP = 0.06
+"""Least distance of a piston from a head, of another piston and of a crosshead, over the bore."""
+
+
+class PistonRods(NamedTuple):
+    """Pistons that crossheads drive from outside their cylinders, lengths in m: (n_cylinders,).
+
+    How long piston rods are, no result depends on: crossheads stay outside the cylinders.
+    """
+
+    lengths: NDArray[np.float64]
+    """From the crosshead's pin to the piston's; 0 of pistons that are their own crossheads."""
+    beams: NDArray[np.float64]
+    """From the crosshead's pin to the beam above the cylinder on side rods; 0 without these."""
+    low: NDArray[np.float64]
+    """Distance of the lower end of a cylinder from the foot of the bore's axis."""
+    high: NDArray[np.float64]
+    """Distance of its upper end: a head, or the place where two pistons meet."""
+    side_rods: NDArray[np.bool_]
+    """Whether a piston faces the crank and hangs from side rods."""
+    is_open: NDArray[np.bool_]
+    """Whether a cylinder has no head, as its piston faces another."""
+    is_closed: NDArray[np.bool_]
+    """Whether it has a head at the crank end."""
+
+
+def piston_rods(engine: Engine, at: Geometry, bores: NDArray[np.float64]) -> PistonRods:
+    """Return piston rods, and the ends of the cylinders that go with them."""
+    count = len(engine)
+    lengths, beams = np.zeros((2, count))
+    low, high = at.lowest - SKIRT * bores, at.highest + (CROWN + 0.04) * bores
+    side_rods = np.array([cylinder.side_rods for cylinder in engine.cylinders])
+    is_open, is_closed = np.zeros((2, count), dtype=bool)
+    above = dict[int, int]()
+    for k, m in _sharing(engine):
+        is_open[[k, m]] = True
+        if side_rods[m]:
+            above[k] = m
+        else:
+            distance = ((at.foot[m] - at.foot[k]) / at.along[k]).real
+            high[[k, m]] = low[[k, m]] + 0.5 * (distance - low[[k, m]].sum())
+    double = np.array([end is not None for end in engine.crank_ends or [None] * count])
+    beyond = at.highest + (SLIPPER + GAP) * bores  # crossheads
+    # Between two cranks there is no room for piston rods.
+    for k in {*np.flatnonzero(double & ~is_open).tolist(), *above}:
+        low[k] = max(beyond[[k, above.get(k, k)]])
+        lengths[k] = low[k] + (SKIRT + GAP) * bores[k] - at.lowest[k]
+        high[k] = at.highest[k] + lengths[k] + (CROWN + 0.04) * bores[k]
+        is_closed[k] = double[k]
+    below = {m: k for k, m in above.items()}
+    for m in np.flatnonzero(side_rods).tolist():
+        low[m] = high[below[m]] if m in below else beyond[m]
+        is_closed[m] = m not in below
+        is_open[m] = True
+        lengths[m] = low[m] + (CROWN + GAP) * bores[m] - at.lowest[m]
+        high[m] = at.highest[m] + lengths[m] + (SKIRT + GAP) * bores[m]
+        beams[m] = high[m] + GAP * bores[m] - at.lowest[m]
+    return PistonRods(lengths, beams, low, high, side_rods, is_open, is_closed)
+
+
+def _sharing(engine: Engine) -> Iterator[tuple[int, int]]:
+    """Yield the two pistons of shared chambers, by index; one with side rods is the second."""
+    for chamber in engine.chambers:
+        if len(chamber) == 2:
+            one, other = sorted(chamber, key=lambda k: engine.cylinders[k - 1].side_rods)
+            yield one - 1, other - 1
 
 
 def section(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None:
@@ -56,9 +127,11 @@ def section(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None
     at = geometry(engine, theta_deg)
     bores = assumed_bores(engine)
     ink = inks_of(ax)
-    _walls(engine, ax, at, bores, ink)
+    rods = piston_rods(engine, at, bores)
+    _walls(engine, ax, at, rods, bores, ink)
     _crank(engine, ax, at, ink)
-    _moving_parts(engine, ax, at, bores, ink, style)
+    _crossheads(engine, ax, at, rods, bores, ink)
+    _moving_parts(engine, ax, at, rods, bores, ink, style)
     _shafts(engine, ax, at.theta_deg, ink)
     ax.set_aspect("equal")
     ax.autoscale_view()
@@ -66,52 +139,53 @@ def section(engine: Engine, ax: Axes, theta_deg: float, **style: object) -> None
     _scale_bar(engine, ax, ink)
 
 
-def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], ink: Inks) -> None:
-    """Draw each bore once, with its head and the numbers of its cylinders.
+def _walls(
+    engine: Engine, ax: Axes, at: Geometry, rods: PistonRods, bores: NDArray[np.float64], ink: Inks
+) -> None:
+    """Draw each bore once, with its heads and the numbers of its cylinders.
 
     A bore in which pistons face each other is open at both ends; the numbers stand beside it.
     Numbers of bores behind each other stand together above the highest.
     """
     seen: dict[tuple[float, ...], list[int]] = {}
     above: dict[tuple[float, ...], list[int]] = {}
-    lowest, heads = at.lowest - SKIRT * bores, at.highest + (CROWN + 0.04) * bores
-    middles = heads.copy()  # between the pistons, where they face each other
-    for pair, distance in _opposed(engine, at):
-        middles[pair] = lowest[pair] + 0.5 * (distance - lowest[pair].sum())
     for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
-        place = np.round([along.real, along.imag, foot.real, foot.imag, bores[k], heads[k]], 9)
+        ends = rods.low[k], rods.high[k]
+        place = np.round([along.real, along.imag, foot.real, foot.imag, bores[k], *ends], 9)
         seen.setdefault(tuple(place.tolist()), []).append(k)
-        if middles[k] == heads[k]:
+        if not rods.is_open[k]:
             above.setdefault(tuple(place[:4].tolist()), []).append(k)
+    cranks = np.mean([complex(x, y) for x, y, _ in engine._core.cranks[0]])
     reached = [disc(axis, 1.8 * crank_radius(engine)) for axis in (0j, *at.axis.tolist())]
     for cylinders in seen.values():
         k = cylinders[0]
-        is_open = middles[k] != heads[k]
-        corners = box(at.foot[k], at.along[k], bores[k], lowest[k], middles[k])
-        walls = corners.reshape(2, 2).T if is_open else corners
+        corners = box(at.foot[k], at.along[k], bores[k], rods.low[k], rods.high[k])
+        outline = np.append(corners, corners[0]) if rods.is_closed[k] else corners
+        walls = corners.reshape(2, 2).T if rods.is_open[k] else outline
         ax.plot(walls.real, walls.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
-        axis = at.foot[k] + np.array([0.0, middles[k]]) * at.along[k]
+        if rods.is_open[k] and rods.is_closed[k]:  # towards the crank alone
+            ax.plot(corners[[0, 3]].real, corners[[0, 3]].imag, color=ink.line, linewidth=1.2)
+        axis = at.foot[k] + np.array([0.0, rods.high[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
-        if is_open:
-            side = corners[:2] if corners[0].real < corners[3].real else corners[2:]
+        if rods.is_open[k]:
+            width = 2.0 * (SIDE_RODS + 0.08) if rods.lengths[k] else 1.0
+            beside = box(at.foot[k], at.along[k], width * bores[k], rods.low[k], rods.high[k])
+            sides = beside[:2], beside[2:]
+            # Away from the cranks, or to the left.
+            away = [abs(side.mean() - cranks) - 1e-6 * side.mean().real for side in sides]
+            side = sides[int(np.argmax(away))]
             numbers = listed([place + 1 for place in cylinders])
-            outside(ax, complex(side.mean()), numbers, complex(axis.mean()))
+            outside(ax, complex(side.mean()), numbers, complex(beside.mean()))
+            top = at.highest[k] + rods.beams[k] + 2.0 * SLIPPER * bores[k] * rods.side_rods[k]
+            reached += [beside, box(at.foot[k], at.along[k], width * bores[k], rods.low[k], top)]
         reached.append(corners)
     for cylinders in above.values():
-        k = max(cylinders, key=lambda place: float(heads[place]))
+        k = max(cylinders, key=lambda place: float(rods.high[place]))
         numbers = listed([place + 1 for place in cylinders])
-        outside(ax, complex(at.foot[k] + heads[k] * at.along[k]), numbers, complex(at.axis[k]))
+        head = at.foot[k] + rods.high[k] * at.along[k]
+        outside(ax, complex(head), numbers, complex(at.axis[k]))
     # Numbers need room beyond the heads.
     ax.update_datalim(points(1.06 * np.concatenate(reached)))
-
-
-def _opposed(engine: Engine, at: Geometry) -> Iterator[tuple[list[int], float]]:
-    """Yield pairs of cylinders whose pistons face each other in a bore, and between their feet."""
-    for k, m in itertools.combinations(range(len(engine)), 2):
-        between = (at.foot[m] - at.foot[k]) * at.along[k].conjugate()
-        apart = [engine.z[k] - engine.z[m], between.imag, abs(at.along[k] + at.along[m])]
-        if between.real > 0.0 and np.allclose(apart, 0.0, atol=1e-9):
-            yield [k, m], float(between.real)
 
 
 def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
@@ -153,10 +227,46 @@ def _free(at: Geometry, axis: complex, axes: list[complex]) -> float:
     return max(away + 45.0, away - 45.0, key=lambda angle: side * np.cos(np.deg2rad(angle)))
 
 
+def _crossheads(
+    engine: Engine, ax: Axes, at: Geometry, rods: PistonRods, bores: NDArray[np.float64], ink: Inks
+) -> None:
+    """Draw piston rods and crossheads; those of side rods are beams, outside the bore."""
+    outlines = []
+    diameters = engine.rod_diameter
+    for k in np.argsort(engine.z, kind="stable"):
+        bore, length = bores[k], rods.lengths[k]
+        if not length:
+            continue
+        head = at.wrist_pin[k], at.along[k]
+        if rods.side_rods[k]:
+            back = rods.beams[k]
+            upper, width = back + 2.0 * SLIPPER * bore, 2.0 * (SIDE_RODS + 0.08) * bore
+            outlines += [
+                box(
+                    head[0] + side * 1j * SIDE_RODS * bore * head[1], head[1], 0.1 * bore, 0.0, back
+                )
+                for side in (-1.0, 1.0)
+            ]
+            outlines += [
+                box(*head, 0.2 * bore, length, back),
+                box(*head, width, back, upper),
+                box(*head, width, -0.5 * SLIPPER * bore, 0.5 * SLIPPER * bore),
+            ]
+        else:
+            width = diameters[k] or 0.16 * bore
+            outlines += [
+                box(*head, width, 0.0, length),
+                box(*head, 0.5 * bore, -SLIPPER * bore, SLIPPER * bore),
+            ]
+    look = {"facecolor": ink.metal, "edgecolor": ink.line, "linewidth": 0.8, "gid": CROSSHEADS}
+    add(ax, outlines, zorder=3.9, **look)
+
+
 def _moving_parts(
     engine: Engine,
     ax: Axes,
     at: Geometry,
+    rods: PistonRods,
     bores: NDArray[np.float64],
     ink: Inks,
     style: dict[str, Any],
@@ -167,7 +277,9 @@ def _moving_parts(
         eye = 0.16 * bores[k]
         pin, wrist = at.crankpin[k], at.wrist_pin[k]
         width = 2.0 * JOURNAL * abs(pin - at.axis[k])
-        low, high = -SKIRT * bores[k], CROWN * bores[k]
+        # The crown of a piston with side rods is towards the crank.
+        ends = (CROWN, SKIRT) if rods.side_rods[k] else (SKIRT, CROWN)
+        low, high = rods.lengths[k] + np.array([-ends[0], ends[1]]) * bores[k]
         outlines += [
             box(wrist, at.along[k], 0.97 * bores[k], low, high),
             bar(at.rod_foot[k], wrist, 1.3 * width, 1.5 * eye),

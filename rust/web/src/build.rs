@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use crankpin_core::engine::Details;
 use crankpin_core::engine::radial::Radial;
+use crankpin_core::engine::{Crank, Details, EngineOnCrank, Hold};
 use crankpin_core::layout::{
     FiringOrder, FiringRule, Inline, MultiBankLayout, Numbering, Side, Spacing, Strokes, Vee,
 };
-use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Firing, Result};
+use crankpin_core::numbers::limits;
+use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Firing, Result, SpeedRatio};
 use serde_json::Value;
 
 use crate::answer::Columns;
@@ -22,16 +23,24 @@ enum Kind {
     Boxer,
     MultiBankLayout,
     Radial,
+    OpposedPistons,
+    U,
+    SquareFour,
+    H,
     FiringOrder,
 }
 
-const KINDS: [(&str, Kind); 7] = [
+const KINDS: [(&str, Kind); 11] = [
     ("inline", Kind::Inline),
     ("vee", Kind::Vee),
     ("flat", Kind::Flat),
     ("boxer", Kind::Boxer),
     ("fan", Kind::MultiBankLayout),
     ("radial", Kind::Radial),
+    ("opposed_pistons", Kind::OpposedPistons),
+    ("u", Kind::U),
+    ("square_four", Kind::SquareFour),
+    ("h", Kind::H),
     ("firing_order", Kind::FiringOrder),
 ];
 
@@ -39,7 +48,8 @@ const KINDS: [(&str, Kind); 7] = [
 pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let kind = arguments.word("kind", &KINDS)?;
     let (cylinder, details) = cylinder(arguments)?;
-    let strokes = Strokes::from_number(arguments.or("strokes", 4)?)?;
+    let usual = if matches!(kind, Kind::OpposedPistons) { 2 } else { 4 };
+    let strokes = Strokes::from_number(arguments.or("strokes", usual)?)?;
     let order: Option<String> = arguments.optional("firing_order")?;
     let mut intervals = None;
     let (engine, order) = match kind {
@@ -52,6 +62,9 @@ pub fn build(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
             let radial = radial(arguments)?;
             let even = || radial.firing_order(strokes);
             (radial.engine(cylinder)?, order.unwrap_or_else(even))
+        }
+        Kind::OpposedPistons | Kind::U | Kind::SquareFour | Kind::H => {
+            (doubled(arguments, kind, cylinder)?, order.unwrap_or_default())
         }
         Kind::FiringOrder => {
             let order = order.ok_or_else(|| Error::value("firing_order", "none", "is required"))?;
@@ -157,6 +170,36 @@ fn radial(arguments: &mut Arguments) -> Result<Radial> {
         rotating_mass: masses(arguments)?,
         first_tdc: arguments.angle("first_tdc_deg")?.unwrap_or(Angle::ZERO),
     })
+}
+
+/// An engine and one like it on a second crank as fast, whose firing is held.
+fn doubled(arguments: &mut Arguments, kind: Kind, cylinder: Cylinder) -> Result<Engine> {
+    let one = match kind {
+        Kind::H => vee(arguments, Kind::Flat)?.engine(cylinder)?,
+        Kind::SquareFour => {
+            let throws = vec![Angle::ZERO, Angle::HALF_TURN];
+            Inline { throws, ..inline(arguments)? }.engine(cylinder)?
+        }
+        _ => inline(arguments)?.engine(cylinder)?,
+    };
+    let distance = limits::length("distance", arguments.required("distance")?)?;
+    let is_opposed = matches!(kind, Kind::OpposedPistons);
+    let ratio = arguments.or("ratio", if is_opposed { 1 } else { -1 })?;
+    if ![1, -1].contains(&ratio) {
+        return Err(Error::value("ratio", ratio, "give 1, or -1 against the main crank"));
+    }
+    let is_aside = matches!(kind, Kind::U | Kind::SquareFour);
+    let delay = match kind {
+        Kind::OpposedPistons => -arguments.angle("lead_deg")?.unwrap_or(Angle::ZERO),
+        Kind::SquareFour => Angle::HALF_TURN,
+        _ => arguments.angle("phase_deg")?.unwrap_or(Angle::ZERO),
+    };
+    let on = |crank, delay, tilt| EngineOnCrank { engine: &one, crank, delay, tilt, z: 0.0 };
+    let axis = if is_aside { [distance, 0.0] } else { [0.0, distance] };
+    let second = Crank { axis, ratio: SpeedRatio::whole(ratio) };
+    let tilt = if is_opposed { Angle::HALF_TURN } else { Angle::ZERO };
+    let parts = [on(Crank::MAIN, Angle::ZERO, Angle::ZERO), on(second, delay, tilt)];
+    Engine::on_cranks(&parts, Hold::Firing)
 }
 
 /// The engine that fires in an order: a vee with a bank angle, an inline engine without.

@@ -2,7 +2,7 @@
 
 import { DEGREE, add, reduced, scale } from "./complex.mjs";
 import { centre, dragged, fixed, place, pointerIn, svg, translate } from "./dom.mjs";
-import { BORE, boreEnds, opposedTo, pinOf } from "./scene.mjs";
+import { boreEnds, pinOf } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
 const BORE_NUMBER = 8; // pixels beyond the head
@@ -44,15 +44,18 @@ export class Handle {
   }
 
   /** Numbers of the cylinders of a bore beyond its head, or beside it where two pistons face each other. */
-  boreNumbers(group, { cylinders }) {
+  boreNumbers(group, { cranks, cylinders }) {
     const { projection, size: [width] } = this.scene;
-    const [{ direction, crank_radius: r }] = group;
-    const opposed = opposedTo(group[0], cylinders);
-    const { axis, low, top } = boreEnds(group[0]);
-    const along = opposed ? 0.5 * (low + top) : Math.max(...group.map((each) => boreEnds(each).top));
-    const left = direction[1] > 0 ? 1 : -1;
-    const towards = opposed ? [-left * direction[1], left * direction[0]] : direction;
-    const from = add(axis, add(scale(direction, along), scale(towards, opposed ? (BORE / 2) * r : 0)));
+    const [{ direction, side_rods: hangs }] = group;
+    const { axis, low, top, other: opposed, half } = boreEnds(group[0], cylinders);
+    const along = opposed ? low + (hangs ? 0.75 : 0.25) * (top - low)
+      : Math.max(...group.map((each) => boreEnds(each, cylinders).end));
+    // Beside the bore away from the cranks, or to the left.
+    const left = scale([-direction[1], direction[0]], direction[1] > 0 ? 1 : -1);
+    const [x0, y0] = cranks.reduce((sum, each) => add(sum, scale([each.x, each.y], 1 / cranks.length)), [0, 0]);
+    const away = (axis[0] - x0) * left[0] + (axis[1] - y0) * left[1];
+    const towards = opposed ? scale(left, away < -1e-6 * half ? -1 : 1) : direction;
+    const from = add(axis, add(scale(direction, along), scale(towards, opposed ? half : 0)));
     const [px, py] = projection.point([...from, 0]);
     const [dx, dy] = towards;
     const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
@@ -120,8 +123,8 @@ function pinNumbers({ cylinders }) {
 
 /** Cylinders whose bores have one direction and one offset. */
 function boreGroups({ cylinders }) {
-  return grouped(cylinders, ({ bank, crank, direction, pin_offset: e }) =>
-    [bank, crank, ...direction.map((part) => part.toFixed(9)), e].join(" "));
+  return grouped(cylinders, ({ bank, crank, direction, pin_offset: e, side_rods: hangs }) =>
+    [bank, crank, hangs, ...direction.map((part) => part.toFixed(9)), e].join(" "));
 }
 
 function grouped(cylinders, keyOf) {

@@ -72,6 +72,7 @@ function cylinderAt(figures, settings, given, before, motion) {
     pin: unit(pinDeg),
     tdc: unit(tdcDeg),
     strokes: strokes(figures, given, delay, before.angles, motion.angles),
+    endStrokes: given.crank_end ? endStrokes(figures, given.crank_end, delay, motion.angles) : null,
   };
 }
 
@@ -84,14 +85,23 @@ function strokes({ firing_deg: firing, strokes: count }, given, delay, [before],
   const cycle = count === 2 ? 360 : 720;
   // As many degrees later as its piston is highest later.
   const fires = reduced(firing[given.number - 1] + delay + highest - before, cycle);
-  const down = lowest - highest;
+  return periods(count, fires, lowest - highest);
+}
+
+/** The same of the chamber at a crank end, which grows as the piston rises. */
+function endStrokes({ strokes: count }, { pressure_deg: begins }, delay, [highest, lowest]) {
+  return periods(count, begins + delay, 360 - (lowest - highest));
+}
+
+/** Strokes of a chamber that begins to grow at an angle, for so many degrees. */
+function periods(count, begins, grows) {
   return count === 2
-    ? [["power", fires, fires + down], ["compression", fires + down, fires + 360]]
+    ? [["power", begins, begins + grows], ["compression", begins + grows, begins + 360]]
     : [
-        ["power", fires, fires + down],
-        ["exhaust", fires + down, fires + 360],
-        ["intake", fires + 360, fires + 360 + down],
-        ["compression", fires + 360 + down, fires + 720],
+        ["power", begins, begins + grows],
+        ["exhaust", begins + grows, begins + 360],
+        ["intake", begins + 360, begins + 360 + grows],
+        ["compression", begins + 360 + grows, begins + 720],
       ];
 }
 
@@ -115,21 +125,24 @@ function weights(figures, cylinders) {
 
 /** The stroke that each cylinder is in at a crank angle; null where the firing is not known. */
 export function strokesAt({ cylinders, cycle }, thetaDeg) {
-  return cylinders.map(({ strokes: periods }) => {
-    if (!periods) return null;
-    const after = reduced(thetaDeg - periods[0][1], cycle) + periods[0][1];
-    // Whatever rounding did: the first has begun.
-    return periods.findLast(([, begin]) => after >= begin)[0];
-  });
+  return cylinders.map(({ strokes: own }) => strokeAt(own, cycle, thetaDeg));
+}
+
+function strokeAt(strokes, cycle, thetaDeg) {
+  if (!strokes) return null;
+  const after = reduced(thetaDeg - strokes[0][1], cycle) + strokes[0][1];
+  // Whatever rounding did: the first has begun.
+  return strokes.findLast(([, begin]) => after >= begin)[0];
 }
 
 /** Places in metres at a crank angle in degrees, and directions of weights. */
-export function placesAt({ cylinders, weights: all }, thetaDeg) {
+export function placesAt({ cylinders, weights: all, cycle }, thetaDeg) {
   const crank = crankAt(thetaDeg);
   return {
     thetaDeg,
     crank,
     cylinders: hung(cylinders, cylinders.map((each) => cylinderPlaces(each, crank))),
+    crankEnds: cylinders.map(({ endStrokes: ends }) => strokeAt(ends, cycle, thetaDeg)),
     weights: all.map((each) => multiply(each.start, turnedBy(crank, each.ratio))),
   };
 }

@@ -11,6 +11,8 @@ const CROWN = 0.8; // above the piston pin
 const SKIRT = 0.6; // below it
 const BAND = 0.28; // of the crown, coloured by the stroke
 const HEAD = 0.1; // between the highest crown and the head
+const SLIPPER = 0.25; // half the length of a crosshead
+const SIDE_RODS = 1.1; // from the axis of the bore
 const WEIGHT = 1.3; // radius of the largest counterweight
 const SHAFT_WEIGHT = 0.55;
 
@@ -101,7 +103,8 @@ export class Scene {
   parts({ cylinders, shafts, weights }) {
     const { places } = this.dimensions;
     return [
-      ...cylinders.flatMap((_, k) => [this.bore(k), this.throw(k), this.rod(k), this.piston(k)]),
+      ...cylinders.flatMap((each, k) => [this.bore(k), this.throw(k), this.rod(k),
+        ...(boreEnds(each, cylinders).rod ? [this.crosshead(k)] : []), this.piston(k)]),
       ...places.flatMap((of, crank) => [...of, 0].map((_, k) => this.journal(crank, k))),
       ...shafts.map((_, k) => this.shaft(k)),
       ...weights.map((_, k) => this.weight(k)),
@@ -116,13 +119,12 @@ export class Scene {
       kind: "bore",
       element,
       layout: ({ cylinders }) => {
-        const { crank_radius: r, direction } = cylinders[k];
+        const { direction } = cylinders[k];
         z = cylinders[k].z;
-        const opposed = opposedTo(cylinders[k], cylinders);
-        ends = boreEnds(cylinders[k], opposed);
+        ends = boreEnds(cylinders[k], cylinders);
         // Pistons that face each other have one bore.
-        element.toggleAttribute("hidden", opposed?.number < cylinders[k].number);
-        const places = this.projection.tube(direction, ends.low, ends.top, (BORE / 2) * r);
+        element.toggleAttribute("hidden", ends.other?.number < cylinders[k].number);
+        const places = this.projection.tube(direction, ends.low, ends.top, (BORE / 2) * ends.size);
         element.setAttribute("d", path(places, true));
         return this.projection.depth([...add(cylinders[k].axis, scale(direction, ends.low)), z]);
       },
@@ -131,19 +133,29 @@ export class Scene {
   }
 
   piston(k) {
-    const [body, band, top] = ["body", "band", "crown"].map((name) => svg("path", { class: name }));
+    const [body, band, top, foot] = ["body", "band", "crown", "band"].map((name) => svg("path", { class: name }));
+    const crankEnd = svg("g", {}, foot);
     const element = svg("g", { class: "piston" }, body, band, top);
     let number = null;
-    let stroke = null;
+    let [stroke, endStroke] = [null, null];
     let z;
+    let rod;
     return {
       kind: "piston",
       element,
       layout: ({ cylinders }) => {
         const { projection } = this;
-        const { crank_radius: r, direction, rod_length: l, number: name } = cylinders[k];
-        const shape = this.pistonShape(direction, r);
+        const { direction, rod_length: l, number: name, side_rods: hangs, crank_end: end } = cylinders[k];
+        const ends = boreEnds(cylinders[k], cylinders);
+        const r = ends.size;
+        // The crown of a piston with side rods is towards the crank.
+        const shape = this.pistonShape(hangs ? scale(direction, -1) : direction, r);
         z = cylinders[k].z;
+        rod = scale(direction, ends.rod);
+        if (end) {
+          foot.setAttribute("d", shape.foot);
+          body.after(crankEnd);
+        }
         body.setAttribute("d", shape.body);
         band.setAttribute("d", shape.band);
         top.setAttribute("d", shape.crown);
@@ -158,7 +170,11 @@ export class Scene {
         return projection.depth([...add(cylinders[k].axis, scale(direction, l)), z]);
       },
       pose: (pose, strokes, motion) => {
-        this.put(element, pose.cylinders[k].wrist, z, motion);
+        this.put(element, add(pose.cylinders[k].wrist, rod), z, motion);
+        if (pose.crankEnds[k] !== endStroke) {
+          endStroke = pose.crankEnds[k];
+          crankEnd.setAttribute("class", endStroke ?? "");
+        }
         if (strokes[k] !== stroke) {
           stroke = strokes[k];
           element.setAttribute("class", `piston ${stroke ?? ""}`);
@@ -181,6 +197,7 @@ export class Scene {
       this.shapes.set(key, {
         body: outline(-SKIRT, CROWN),
         band: outline(CROWN - BAND, CROWN),
+        foot: outline(-SKIRT, BAND - SKIRT),
         crown: facing ? path(crown.map(([x, y]) => [x + cx, y + cy]), true) : "",
         // Of pistons seen from below the rod covers the pin.
         middle: facing ? [cx, cy] : depth > -ONE_PLACE ? [0, 0] : [0.5 * cx, 0.5 * cy],
@@ -204,6 +221,35 @@ export class Scene {
       pose: ({ cylinders }, _strokes, motion) => {
         const { foot, wrist } = cylinders[k];
         bar.draw([this.at(foot, z, motion), this.at(wrist, z, motion)]);
+      },
+    };
+  }
+
+  /** A crosshead outside the cylinder, and its piston rod; or side rods and the beam above the cylinder. */
+  crosshead(k) {
+    const bars = [new Bar("rod"), new Bar("rod")];
+    let ends;
+    let direction;
+    let z;
+    return {
+      kind: "rod",
+      element: svg("g", { class: "crosshead" }, ...bars.map(({ element }) => element)),
+      layout: ({ cylinders }) => {
+        ({ direction, z } = cylinders[k]);
+        ends = boreEnds(cylinders[k], cylinders);
+        const wide = ends.beam ? [0.16, 0.12] : [0.9, 0.22];
+        bars.forEach((bar, place) => { bar.width = wide[place] * ends.size * this.projection.scale; });
+        return this.projection.depth([...add(cylinders[k].axis, scale(direction, cylinders[k].rod_length)), z]);
+      },
+      pose: ({ cylinders }, _strokes, motion) => {
+        const { size, rod, beam } = ends;
+        const at = (along, across = 0) =>
+          this.at(add(cylinders[k].wrist, multiply(direction, [along, across * size])), z, motion);
+        const [yoke, stem] = bars;
+        yoke.draw(beam
+          ? [at(0), at(0, SIDE_RODS), at(beam, SIDE_RODS), at(beam, -SIDE_RODS), at(0, -SIDE_RODS), at(0)]
+          : [at(-SLIPPER * size), at(SLIPPER * size)]);
+        stem.draw([at(beam), at(rod)]);
       },
     };
   }
@@ -346,25 +392,41 @@ function dimensions(engine) {
   return { radius, places, stretch, halfThrow, ends, largestWeight };
 }
 
-/** Lower end and head of a bore, and where its axis passes its crank's; without a head where a piston is `opposed`. */
-export function boreEnds(cylinder, opposed = null) {
-  const { crank_radius: r, shift, direction: [dx, dy], extremes: [highest, lowest] } = cylinder;
-  const axis = add(cylinder.axis, [-shift * dy, shift * dx]);
-  const low = Math.max(lowest - SKIRT * r, 1.1 * r);
-  if (!opposed) return { low, top: highest + (CROWN + HEAD) * r, axis };
-  const other = boreEnds(opposed);
-  return { low, top: Math.hypot(axis[0] - other.axis[0], axis[1] - other.axis[1]) - other.low, axis };
+/**
+ * Lower end and head of a bore and where its axis passes its crank's; the `other` piston that faces this one in it,
+ * the crank radius to whose scale it is drawn, and where it and what is beside it end. Crossheads stay outside: `rod`
+ * is the length from the piston's to the piston, `beam` that to the beam above the cylinder that side rods carry.
+ */
+export function boreEnds(cylinder, cylinders) {
+  const { crank_radius: r, crank_end: crankEnd, number, fires_as: chamber, extremes: [highest, lowest] } = cylinder;
+  const other = cylinders.find((each) => each.fires_as === chamber && each.number !== number);
+  const axis = pathOf(cylinder);
+  const pair = other ? [cylinder, other] : [cylinder];
+  const hanging = pair.find((each) => each.side_rods);
+  const ends = (size, parts) => ({ axis, other, size, rod: 0, beam: 0, half: (BORE / 2) * size, end: parts.top, ...parts });
+  if (!hanging && (other || !crankEnd)) {
+    const plain = ({ crank_radius: size, extremes }) => Math.max(extremes[1] - SKIRT * size, 1.1 * size);
+    const apart = other ? Math.hypot(...add(axis, scale(pathOf(other), -1))) - plain(other) : 0;
+    return ends(r, { low: plain(cylinder), top: apart || highest + (CROWN + HEAD) * r });
+  }
+  const size = Math.max(...pair.map((each) => each.crank_radius));
+  const low = Math.max(...pair.map((each) => each.extremes[0])) + (SLIPPER + HEAD) * size;
+  const lower = pair.find((each) => each !== hanging);
+  const rod = lower ? low + (SKIRT + HEAD) * size - lower.extremes[1] : 0;
+  // The head, or where two pistons meet.
+  const meet = lower ? lower.extremes[0] + rod + (CROWN + HEAD) * size : low;
+  if (!hanging) return ends(size, { low, top: meet, rod });
+  const upper = meet + (CROWN + HEAD) * size - hanging.extremes[1];
+  const top = hanging.extremes[0] + upper + (SKIRT + HEAD) * size;
+  const half = (SIDE_RODS + HEAD) * size;
+  if (cylinder !== hanging) return ends(size, { low, top, rod, half });
+  const beam = top + 2 * HEAD * size - lowest;
+  return ends(size, { low, top, rod: upper, beam, half, end: highest + beam + 2 * HEAD * size });
 }
 
-/** The cylinder whose piston faces that of another in its bore, from a crank at the other end. */
-export function opposedTo(cylinder, cylinders) {
-  const { direction: [dx, dy], crank_radius: r, z } = cylinder;
-  return cylinders.find((other) => {
-    const [ax, ay] = add(boreEnds(other).axis, scale(boreEnds(cylinder).axis, -1));
-    const [ex, ey] = add(other.direction, [dx, dy]);
-    return Math.abs(other.z - z) <= ONE_PLACE * r && Math.hypot(ex, ey) <= ONE_PLACE
-      && Math.abs(ax * dy - ay * dx) <= ONE_PLACE * r && ax * dx + ay * dy > r;
-  });
+/** Where the path of a piston passes its crank's axis. */
+function pathOf({ axis, shift, direction: [dx, dy] }) {
+  return add(axis, [-shift * dy, shift * dx]);
 }
 
 /** Points that a picture of the engine must contain. */
@@ -379,9 +441,8 @@ function extremes(engine, { radius, ends, stretch }) {
     points.push(...ends.flatMap((z) => around(x, y, z, SHAFT_WEIGHT * radius)));
   }
   for (const cylinder of engine.cylinders) {
-    const { direction: [dx, dy], crank_radius: r, z } = cylinder;
-    const { top, axis } = boreEnds(cylinder);
-    const half = (BORE / 2) * r;
+    const { direction: [dx, dy], z } = cylinder;
+    const { end: top, axis, half } = boreEnds(cylinder, engine.cylinders);
     for (const side of [-half, half]) {
       for (const along of [z - half / stretch, z + half / stretch]) {
         points.push([axis[0] + top * dx - side * dy, axis[1] + top * dy + side * dx, along]);

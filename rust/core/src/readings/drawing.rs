@@ -113,6 +113,9 @@ pub struct DrawnCylinder {
     cycle: Option<usize>,
     #[serde(flatten)]
     pressure: Option<DrawnPressure>,
+    /// Whether side rods drive the piston from beyond its chamber.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    side_rods: bool,
     /// At the crank end of a double-acting piston.
     #[serde(skip_serializing_if = "Option::is_none")]
     crank_end: Option<DrawnCrankEnd>,
@@ -280,6 +283,7 @@ fn cylinders(engine: &Engine, motion_of: &[usize]) -> Vec<DrawnCylinder> {
                 angle_deg: link.angle.degrees(),
             }),
             motion: motion_of[i],
+            side_rods: engine.details()[i].side_rods,
             pressure: own.map(drawn_pressure),
             cycle: own.and_then(place),
             crank_end,
