@@ -84,6 +84,7 @@ __all__ = [
     "gas_text",
     "gas_warnings",
     "hardware_warnings",
+    "heat_release",
     "inertia_by_irregularity",
     "inline_throws",
     "irregularity_by_order",
@@ -929,6 +930,12 @@ def polytropic_offsets(
     pressure: _Real,
     exponent: float | None,
 ) -> tuple[float, _Real]: ...
+def heat_release(
+    figures: tuple[_Parts, float | None, float, int],
+    theta_deg: _Real,
+    pressure: _Real,
+    gamma: float,
+) -> _Real: ...
 def low_passed(theta_deg: _Real, pressure: _Real, period_deg: float, order: float) -> _Real: ...
 
 _Recorded: TypeAlias = tuple[_Real, float | None, bool]

@@ -136,6 +136,7 @@ IN_PLACE = {
     ("trace", "--atmosphere"): "i4 run.csv --bore 86mm --atmosphere 1.01bar",
     ("trace", "--tdc"): "i4 run.csv --bore 86mm --tdc 1",
     ("trace", "--exponent"): "i4 run.csv --bore 86mm --compression-ratio 10 --exponent 1.3",
+    ("trace", "--gamma"): "i4 run.csv --bore 86mm --compression-ratio 10 --gamma 1.3",
     (
         "trace",
         "--compression-ratio",

@@ -412,6 +412,10 @@ def test_a_record_of_an_oscilloscope_is_read_by_roles(
     assert saved.cycles is not None
     assert saved.cycles[0] == prepared.cycle
     assert saved.cylinders[0].bore == 0.086
+    released = printed(capsys, f"{one} --compression-ratio 10 --gamma 1.3")
+    assert (
+        scope.traces[0].heat_spread(cylinder, compression_ratio=10.0, gamma=1.3).text() in released
+    )
     each = " ".join(f"--pressure CH{k}:20bar/V,-1bar" for k in (1, 2, 3, 4))
     of_all = printed(capsys, f"trace i4 scope.csv --bore 86mm {each} {clock}")
     assert "scope, 4 cylinders, spread" in of_all
@@ -423,6 +427,7 @@ def test_a_record_of_an_oscilloscope_is_read_by_roles(
         ("trace i4 scope.csv --pulses 60-2", "--pulses = 60-2: needs --encoder"),
         (f"trace v6-60 scope.csv {each} {clock}", "the engine has 6 cylinders; give one channel"),
         (f"{one.replace('CH5', 'CH9')}", "--encoder = CH9: there is none; the file has"),
+        (f"{one} --gamma 1.3", "--gamma = 1.3: needs --compression-ratio"),
         (f"{one} --time 0:h", "--time = '0:h': give a unit of time"),
         (f"{one} --time 7", "--time = 7: give numbers from 0 to 6"),
     ):

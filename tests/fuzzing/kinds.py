@@ -159,7 +159,7 @@ KINDS: dict[str, list[Any]] = {
     "tolerance_deg": [0.01],
     "upper": [CYLINDER],
     "width": [0.02],
-    "window_deg": [(-120.0, -40.0)],
+    "window_deg": [(-120.0, -40.0), (-60.0, 100.0)],
     "x": [0.1, "rpm"],
     "y": [0.1],
     "Locomotive.z": [[-0.1, 0.0, 0.1]],

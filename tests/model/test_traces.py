@@ -271,3 +271,62 @@ def test_numbers_that_are_none_are_named_by_cycle_and_angle() -> None:
     rows[4, 700] = np.nan
     with pytest.raises(cp.InputError, match=r"pressure has .* first nan in cycle 4 at -10°: give"):
         cp.Traces(THETA, rows)
+
+
+# Exponent of the gas, heat in J, begin and duration of the burn, degrees, and Wiebe's exponent.
+BURNS = [
+    (1.33, 1000.0, -15.0, 50.0, 2.0),
+    (1.25, 1500.0, -5.0, 60.0, 1.0),
+    (1.4, 400.0, 0.0, 30.0, 3.0),
+    (1.3, 50.0, -20.0, 70.0, 2.0),
+    (1.35, 2000.0, 5.0, 80.0, 1.5),
+]
+
+
+@in_turn("burn", BURNS)
+def test_heat_release_is_the_heat_of_the_burn(burn: tuple[float, ...]) -> None:
+    gamma, heat, start, duration, m = burn
+    cycle = cp.Cycle.wiebe(
+        CYLINDER, compression_ratio=10.5, heat=heat, start_deg=start, duration_deg=duration,
+        a=6.908, m=m, gamma=gamma,
+    )  # fmt: skip
+    fine = np.arange(-360.0, 360.0, 0.2)
+    traces = cp.Traces(fine, cycle.pressure_at(fine) * np.array([[1.0], [1.0]]))
+    theta = np.arange(-60.0, 100.5, 0.5)
+    figures: dict[str, Any] = {"compression_ratio": 10.5, "gamma": gamma}
+    released = traces.heat_release(CYLINDER, theta, **figures)
+    over = np.clip((theta - start) / duration, 0.0, 1.0)
+    burnt = heat * (1.0 - np.exp(-6.908 * over ** (m + 1.0)))
+    # Pressure between points of 0.2° where a burn begins and ends with a bend; trapezes of 0.5°.
+    np.testing.assert_allclose(released[0], burnt, atol=2e-3 * max(heat, 300.0))
+    rate = again.heat_rate(fine, traces.pressure[0], CRANK, 0.086, 10.5, gamma)
+    inside = (fine > -60.0 - 1e-9) & (fine < 100.0 + 1e-9)
+    summed = np.cumsum(0.5 * 0.2 * (rate[inside][1:] + rate[inside][:-1]))
+    np.testing.assert_allclose(released[0, -1], summed[-1], atol=3e-3 * max(heat, 300.0))
+    table = traces.heat_spread(CYLINDER, **figures)
+    half = start + duration * (np.log(2.0) / 6.908) ** (1.0 / (m + 1.0))
+    assert table["figure"].values[2] == "angle of 50 %"
+    np.testing.assert_allclose(table["mean"].values[2], half, atol=1.0)
+    np.testing.assert_allclose(table["mean"].values[0], heat * (1 - np.exp(-6.908)), rtol=0.02)
+    assert table["deviation"].values[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"gamma": 1.0}, "gamma = 1"),
+        ({"gamma": np.nan}, "gamma = nan"),
+        ({"compression_ratio": 1.0}, "compression_ratio = 1"),
+        ({"theta_deg": [0.0, -1.0]}, "theta_deg = .* give ascending"),
+        ({"theta_deg": [0.0, 721.0]}, "theta_deg has angles over 721°"),
+        ({"cylinder": cp.Cylinder(0.043, 0.145, 0.5)}, "bore = None"),
+    ],
+)
+def test_heat_release_of_wrong_figures_is_rejected(changed: Any, message: str) -> None:  # noqa: ANN401
+    usual = {"cylinder": CYLINDER, "theta_deg": [-60.0, 100.0], "compression_ratio": 10.5}
+    with pytest.raises(cp.InputError, match=message):
+        cp.Traces(THETA, MOTORED[None]).heat_release(**usual | changed)
+    with pytest.raises(cp.InputError, match=r"window_deg = .* give two angles"):
+        cp.Traces(THETA, MOTORED[None]).heat_spread(
+            CYLINDER, compression_ratio=10.5, window_deg=(10.0, -10.0)
+        )

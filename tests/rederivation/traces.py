@@ -27,6 +27,18 @@ def travel(crank: Crank) -> float:
     return float(np.sqrt((rod + r) ** 2 - e**2) - np.sqrt((rod - r) ** 2 - e**2))
 
 
+def heat_rate(
+    theta: Array, pressure: Array, crank: Crank, bore: float, ratio: float, g: float
+) -> Array:
+    """Return apparent net heat release by its differential form, J/°, from slopes of p and V."""
+    r, rod, e = crank
+    piston = np.pi / 4.0 * bore**2
+    low = np.sqrt((rod + r) ** 2 - e**2)
+    volume = piston * (low - height(np.radians(theta), r, rod, e) + travel(crank) / (ratio - 1.0))
+    dv, dp = (np.gradient(each, theta, edge_order=2) for each in (volume, pressure))
+    return np.asarray(g / (g - 1.0) * pressure * dv + volume * dp / (g - 1.0))
+
+
 def imep(theta: Array, pressure: Array, crank: Crank) -> Array:
     """Return −∮p dx over the travel, by trapezes over the piston's way; a row for each cycle."""
     x = height(np.radians(np.append(theta, theta[0])), *crank)

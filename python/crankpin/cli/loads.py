@@ -272,6 +272,12 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
         prepare_trace,
         "loss_angle_deg lowpass_order intake_pressure leave_out spikes exponent compression_ratio",
     ),
+    keyword(
+        Traces.heat_spread,
+        "gamma",
+        more="; with it the heat release is printed, which needs --compression-ratio",
+        default="",
+    ),
     *OF_A_RECORD,
     "--units --csv --plot --save --force",
     example="trace i4 run7.csv --bore 86mm --intake-pressure 0.95bar --save run7.toml\n"
@@ -355,8 +361,16 @@ def _prepared(
     without_fire: Sequence[Traces | None],
 ) -> Shown:
     """Return cycles prepared as options say, and the engine with their means."""
+    options = call.keywords(prepare_trace)
+    heat = call.keywords(Traces.heat_spread)
+    if heat:
+        if "compression_ratio" not in options:
+            raise rejected("--gamma", call.text("--gamma"), "needs --compression-ratio; give it")
+        heat["compression_ratio"] = options["compression_ratio"]
+        if "exponent" not in options:
+            del options["compression_ratio"]
     prepared = [
-        prepare_trace(recorded, cylinder, motored=by_motoring, **call.keywords(prepare_trace))
+        prepare_trace(recorded, cylinder, motored=by_motoring, **options)
         for recorded, cylinder, by_motoring in zip(traces, cylinders, without_fire, strict=False)
     ]
     cycles = [trace.cycle for trace in prepared]
@@ -364,7 +378,30 @@ def _prepared(
     with_mean = engine.replace(cylinder=cylinders).with_cycle(cycles if several else cycles[0])
     whole = OfCylinders(tuple(prepared)) if several else prepared[0]
     note += f"Read: {'; '.join(dict.fromkeys(trace.origin for trace in traces))}.\n"
-    return Shown(whole.frames, whole, engine=with_mean, note=note)
+    frames = whole.frames
+    if heat:
+        released = [each.traces.heat_spread(each.cylinder, **heat) for each in prepared]
+        table = stacked(released, f"{released[0].title}") if several else released[0]
+        frames = Frames(
+            {name: partial(whole.frames.__getitem__, name) for name in frames}
+            | {"heat": lambda: table}
+        )
+    return Shown(frames, whole, engine=with_mean, note=note)
+
+
+def stacked(tables: Sequence[Table], title: str) -> Table:
+    """Return the rows of tables of cylinders below each other."""
+    numbers = tuple(k for k, table in enumerate(tables, 1) for _ in table.columns[0].values)
+    columns = [
+        changed(same[0], data=tuple(value for column in same for value in column.values))
+        for same in zip(*(table.columns for table in tables), strict=True)
+    ]
+    return changed(
+        tables[0],
+        title=title,
+        columns=(Column("cylinder", numbers), *columns),
+        row_units=tuple(unit for table in tables for unit in table.row_units),
+    )
 
 
 class OfCylinders(NamedTuple):
@@ -386,18 +423,7 @@ class OfCylinders(NamedTuple):
         return Frames({frame: partial(stacked, frame, title) for frame, title in titles.items()})
 
     def _stacked(self, frame: str, title: str) -> Table:
-        tables = [prepared.frames[frame] for prepared in self.prepared]
-        numbers = tuple(k for k, table in enumerate(tables, 1) for _ in table.columns[0].values)
-        columns = [
-            changed(same[0], data=tuple(value for column in same for value in column.values))
-            for same in zip(*(table.columns for table in tables), strict=True)
-        ]
-        return changed(
-            tables[0],
-            title=title,
-            columns=(Column("cylinder", numbers), *columns),
-            row_units=tuple(unit for table in tables for unit in table.row_units),
-        )
+        return stacked([prepared.frames[frame] for prepared in self.prepared], title)
 
     def plot(self) -> Axes:
         """Draw the mean of each cylinder in the band of its cycles."""

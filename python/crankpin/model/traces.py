@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, overload
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import ATMOSPHERE
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Tabled
@@ -17,6 +18,7 @@ from crankpin._support.parameters import documented
 from crankpin._support.record import AbsentError, Input, changed, item_key, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model import checks, cycle_files, odd_cycles
+from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
@@ -36,6 +38,9 @@ OverCycles: TypeAlias = "tuple[str, str, NDArray[np.float64] | NDArray[np.comple
 """Name and unit of a figure, and its numbers or phasors by cycle."""
 SHOWN_ORDERS: tuple[Order, ...] = (0.5, 1, 6, 12)
 """Orders whose torque is reported of measured traces: two low ones, and two that phases shift."""
+HEAT_STEP = 0.5
+"""Step of crank angle, degrees, over which the work of heat release is summed: trapezes leave 1e-5
+of it."""
 OF_WHITE_NOISE = 70.0
 """Variance of fourth differences of white noise, over its own: 1 + 16 + 36 + 16 + 1."""
 OFFSET = (
@@ -400,6 +405,119 @@ class Traces(Tabled, Input):
             ]
         return np.array(phasors)
 
+    def heat_release(
+        self,
+        cylinder: Cylinder,
+        theta_deg: ArrayLike,
+        *,
+        compression_ratio: float,
+        gamma: float = 1.33,
+    ) -> NDArray[np.float64]:
+        """Return the apparent net heat release of each cycle, J: (n_cycles, n_theta).
+
+        That of the first law of a single zone with a constant ratio of heat capacities,
+        ``dQ = γ/(γ-1)·p·dV + 1/(γ-1)·V·dp`` (Heywood, Internal Combustion Engine Fundamentals,
+        1988, section 9.2.2): combustion less the heat that walls and crevices take. It is
+        integrated as ``p·dV + d(p·V)/(γ-1)``, which differentiates no pressure. An error of the
+        reference is in it: :func:`crankpin.prepare_trace` removes it.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            Cylinder with a bore.
+        theta_deg : array_like, shape (n_theta,)
+            Crank angles after the firing top dead centre, ascending while valves are closed,
+            degrees. Heat is counted from the first.
+        compression_ratio : float
+            Largest over smallest volume.
+        gamma : float, default 1.33
+            Ratio of heat capacities of the gas.
+
+        Returns
+        -------
+        ndarray of float, shape (n_cycles, n_theta)
+            Heat from the first angle to each, J.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore, angles do not ascend within a cycle, or an argument is out
+            of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> import numpy as np
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> cycle = cp.Cycle.wiebe(cylinder, compression_ratio=10, heat=1000, gamma=1.33)
+        >>> theta = np.arange(-360.0, 360.0, 0.5)
+        >>> traces = cp.Traces(theta, cycle.pressure_at(theta)[None])
+        >>> traces.heat_release(cylinder, [-60, 0, 60], compression_ratio=10).round(-1)
+        array([[  -0.,  260., 1000.]])
+        """
+        area(cylinder)
+        theta = inputs.finite_array("theta_deg", theta_deg)
+        if theta.ndim != 1 or not len(theta) or (np.diff(theta) <= 0.0).any():
+            hint = "give ascending crank angles while valves are closed"
+            raise inputs.rejected("theta_deg", theta_deg, hint)
+        if theta[-1] - theta[0] > self.period_deg:
+            fault = f"has angles over {theta[-1] - theta[0]:g}°"
+            raise inputs.faulty("theta_deg", fault, "give angles within one cycle")
+        ratio = inputs.finite("compression_ratio", compression_ratio)
+        # On all points between as well, over which work is summed.
+        fine = np.unique(np.concatenate([theta, np.arange(theta[0], theta[-1], HEAT_STEP)]))
+        rows = np.array([cycle.pressure_at(fine) for cycle in self._raised_cycles()])
+        figures = (cylinder._parts, cylinder.bore, ratio, self.strokes)
+        kappa = inputs.finite("gamma", gamma)
+        heats = _core.heat_release(figures, fine, rows - self._raised, kappa)
+        return np.ascontiguousarray(heats[:, np.searchsorted(fine, theta)])
+
+    @documented(heat_release)
+    def heat_spread(
+        self,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        gamma: float = 1.33,
+        window_deg: tuple[float, float] = (-60.0, 100.0),
+    ) -> Table:
+        """Return mean and spread over cycles of the heat released, and of when it is.
+
+        Parameters
+        ----------
+        window_deg : pair of float, default (-60.0, 100.0)
+            Crank angles between which valves are closed and all burns, degrees.
+
+        Returns
+        -------
+        Table
+            Largest heat from the beginning of the window, J, and crank angles at which 10, 50 and
+            90 % of it are released; mean, deviation, least and largest.
+
+        Raises
+        ------
+        InputError
+            …, or if a cycle releases no heat.
+        """
+        pair = inputs.vector("window_deg", window_deg)
+        if len(pair) != 2 or not 0.0 < pair[1] - pair[0] <= self.period_deg:
+            hint = "give two angles, ascending, in one period"
+            raise inputs.rejected("window_deg", window_deg, hint)
+        theta = np.linspace(pair[0], pair[1], 1 + math.ceil((pair[1] - pair[0]) / HEAT_STEP))
+        heats = self.heat_release(cylinder, theta, compression_ratio=compression_ratio, gamma=gamma)
+        largest = heats.max(axis=1)
+        if (none := largest <= 0.0).any():
+            fault = f"release no heat in cycle {int(none.argmax())}"
+            hint = "leave motored cycles out; are dead centre, reference and window right?"
+            raise inputs.faulty("traces", fault, hint)
+        figures: list[OverCycles] = [("heat released", "J", largest)]
+        for share in (0.1, 0.5, 0.9):
+            at = [
+                _reaches(theta, row, share * most) for row, most in zip(heats, largest, strict=True)
+            ]
+            figures.append((f"angle of {100 * share:g} %", "°", np.array(at)))
+        return spread_table(f"{self._title}, heat release", figures)
+
     @documented(torque_harmonics)
     def spread(self, cylinder: Cylinder, orders: Order | Iterable[Order] = SHOWN_ORDERS) -> Table:
         """Return mean and spread over cycles of peak, imep and the torque's harmonics.
@@ -486,6 +604,14 @@ class Traces(Tabled, Input):
             ),
             note=self.origin,
         )
+
+
+def _reaches(theta: NDArray[np.float64], heat: NDArray[np.float64], level: float) -> float:
+    """Return the angle at which heat last passes a level on its way to its largest value."""
+    top = int(heat.argmax())
+    below = np.flatnonzero(heat[: top + 1] <= level)
+    k = min(int(below[-1]) if len(below) else 0, len(theta) - 2)
+    return float(np.interp(level, heat[k : k + 2], theta[k : k + 2]))
 
 
 def spread_table(title: str, figures: Sequence[OverCycles]) -> Table:

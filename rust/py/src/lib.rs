@@ -67,8 +67,8 @@ mod _core {
             rigid_body,
         },
         pressure::{
-            Cycle, compression_peak, crank_clock, cubics, fires_a_turn_later, low_passed,
-            phasors_of_curves, places_on_axis, polytropic_offsets, repeats_first,
+            Cycle, compression_peak, crank_clock, cubics, fires_a_turn_later, heat_release,
+            low_passed, phasors_of_curves, places_on_axis, polytropic_offsets, repeats_first,
             speed_within_cycles,
         },
         search::{BankAngles, Search, arrangement},

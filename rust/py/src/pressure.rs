@@ -74,6 +74,27 @@ pub fn polytropic_offsets<'py>(
     Ok((exponent, frozen(py, offsets.into())?))
 }
 
+/// Apparent net heat from the first of crank angles to each, J: (`n_cycles`, `n_theta`).
+#[guarded]
+#[pyfunction]
+pub fn heat_release<'py>(
+    py: Python<'py>,
+    figures: (Parts, f64, f64, u32),
+    theta_deg: PyReadonlyArray1<'_, f64>,
+    pressure: PyReadonlyArray2<'_, f64>,
+    gamma: f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (parts, bore, compression_ratio, strokes) = figures;
+    let chamber = chamber(parts, bore, compression_ratio, strokes)?;
+    let (thetas, pressure) = (theta_deg.as_slice()?, pressure.as_array());
+    let heats = interrupt::run(py, |cancel| {
+        core::crank_angles::check(thetas, cancel)?;
+        let heats = preparation::heat_release(&chamber, thetas, &pressure, gamma, cancel)?;
+        memory::array("theta_deg", pressure.dim(), heats)
+    })?;
+    writeable(py, heats)
+}
+
 /// Pressure of cycles in a row without what is above an order of crank speed: (`n_cycles`, `n_theta`).
 #[guarded]
 #[pyfunction]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 use ndarray::{ArrayView1, ArrayView2, Axis};
 
-use super::chamber::Chamber;
+use super::chamber::{Chamber, within};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::chebyshev::{coefficient, jet, points};
@@ -92,6 +92,38 @@ pub fn polytropic_offsets(
         Ok(-line(&row.to_vec(), &volume, exponent)[0])
     };
     Ok((exponent, pressure.rows().into_iter().map(offset).collect::<Result<_>>()?))
+}
+
+/// Apparent net heat that a gas has received from the first of crank angles to each, J, by cycle:
+/// (`n_cycles`, `n_theta`).
+///
+/// The first law of one zone, dQ = γ/(γ−1)·p·dV + 1/(γ−1)·V·dp (Heywood, Internal Combustion Engine Fundamentals
+/// (1988), section 9.2.2), as p·dV + d(p·V)/(γ−1): work by trapezes and a difference, so that no pressure is
+/// differentiated.
+pub fn heat_release(
+    chamber: &Chamber,
+    theta_deg: &[f64],
+    pressure: &ArrayView2<f64>,
+    gamma: f64,
+    cancel: &Cancel,
+) -> Result<Vec<f64>> {
+    within("gamma", gamma, 1.01, 2.0)?;
+    let volumes: Vec<f64> =
+        theta_deg.iter().map(|&theta| chamber.clearance() * chamber.ratio(theta)).collect();
+    let mut heats = memory::with_capacity(pressure.len())?;
+    for row in pressure.rows() {
+        cancel.check()?;
+        let (mut work, mut before) = (0.0, None::<(f64, f64)>);
+        let first = row.first().zip(volumes.first()).map_or(0.0, |(p, volume)| p * volume);
+        heats.extend(row.iter().zip(&volumes).map(|(&now, &volume)| {
+            if let Some((pressure, smaller)) = before {
+                work += f64::midpoint(pressure, now) * (volume - smaller);
+            }
+            before = Some((now, volume));
+            work + (now * volume - first) / (gamma - 1.0)
+        }));
+    }
+    Ok(heats)
 }
 
 /// Constant of the best `constant + C·V⁻ⁿ`, and the sum of squares that it leaves.
