@@ -175,7 +175,7 @@ impl Engine {
         DeadCentres {
             angles_deg: turning.map(angle),
             height: highest * station.cylinder.crank_radius(),
-            stroke: mechanism.travel(),
+            stroke: self.travel(cylinder),
             compression_ratio: None,
         }
     }
@@ -286,6 +286,14 @@ impl Engine {
         let known = self.kept.get(|_: &Vec<Option<Arc<dyn Mechanism>>>| true, all);
         let known = known.ok().and_then(|known| known[cylinder].clone());
         known.unwrap_or_else(|| self.running_gear(cylinder).mechanism())
+    }
+
+    /// Travel of a cylinder's piston, m.
+    pub(crate) fn travel(&self, cylinder: usize) -> f64 {
+        match self.link_rods[cylinder] {
+            None => self.stations[cylinder].cylinder.travel(),
+            Some(_) => self.mechanism(cylinder).travel(),
+        }
     }
 
     fn link_mechanism(&self, cylinder: usize) -> Option<Arc<dyn Mechanism>> {

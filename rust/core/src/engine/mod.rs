@@ -494,7 +494,7 @@ impl Engine {
     /// piston in a turn of its own crank.
     #[must_use]
     pub fn mean_piston_speed(&self, rpm: f64) -> f64 {
-        self.mean_piston_speed_of(rpm, |i| self.mechanism(i).travel())
+        self.mean_piston_speed_of(rpm, |i| self.travel(i))
     }
 
     /// The same with the travel of each cylinder's piston, m.
