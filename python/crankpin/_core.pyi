@@ -355,10 +355,11 @@ class Engine:
     ) -> Engine: ...
     def with_master_rods(
         self,
-        radius: float,
+        radius: float | None,
         length: float | None,
         angles_deg: Sequence[str] | None,
         big_end_mass: float | None,
+        equal: str | None,
         masters: Sequence[int] | None,
     ) -> Engine: ...
     def dead_centres(

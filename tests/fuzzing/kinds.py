@@ -405,6 +405,7 @@ KINDS: dict[str, list[Any]] = {
     "what": ["peak", "values"],
     "pistons": [SIX],
     "rods": [[[mass, mass] for mass in SIX], [None] * 6, cp.LinkRods(0.02, 0.12)],
+    "equal": ["stroke"],
     "master": [1, Beside("right", {"rods": cp.LinkRods(0.02, 0.12)})],
     "big_end_mass": [0.3],
     "master_ratio": [0.26],

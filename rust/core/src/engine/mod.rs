@@ -28,7 +28,7 @@ pub use self::chambers::SharedChamber;
 pub use self::faces::{CrankEnd, Face, FacePressure};
 pub use self::gas::Gas;
 use self::layout::Strokes;
-pub use self::links::{DeadCentres, LinkRod, LinkRods};
+pub use self::links::{DeadCentres, EqualTravel, LinkRod, LinkRods};
 pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
 pub use self::several_cranks::EngineOnCrank;
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
