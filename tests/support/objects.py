@@ -242,6 +242,12 @@ OBJECTS = Made(
         "RigidBody": lambda: MOUNTED.body,
         "Powertrain": lambda: MOUNTED,
         "StaticState": lambda: MOUNTED.static(100.0),
+        "ForceTable": lambda: cp.force_table(ODD, 600.0, orders=[1, 2]),
+        "Soil": lambda: cp.Soil(6e7, 0.3),
+        "Powertrain of forces": lambda: MOUNTED.replace(
+            engine=None, forces=cp.ForceTable(900, {1: (0, 50, 0, 3j, 0, 0)}, name="table")
+        ),
+        "MountResponse of forces": lambda: OBJECTS["Powertrain of forces"].response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),
         "RollAxes": lambda: MOUNTED.axes(20.0),
         "MountResponse": lambda: MOUNTED.response([900.0, 3000.0], orders=[1, 2]),
@@ -304,7 +310,7 @@ OBJECTS = Made(
 
 UNTABLED = {
     "Cylinder", "LinkRod", "LinkRods", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming",
-    "InertiaTrack",
+    "InertiaTrack", "Soil",
     "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip
