@@ -58,7 +58,8 @@ def test_makers_tables_and_blocks_on_soil(capsys: CAPTURE, tmp_path: Path) -> No
     line = "foundation marine-6 --rpm 105 --cycle diesel --maker --orders 1,2,6"
     assert printed(capsys, line).startswith(f"{table}\n")
     file, saved = tmp_path / "maker.csv", tmp_path / "block.toml"
-    file.write_text(printed(capsys, f"{line} --csv"), encoding="utf-8")
+    assert "Written to" in printed(capsys, f"{line} -o {file}")
+    assert file.read_text(encoding="utf-8") == printed(capsys, f"{line} --csv")
     again = cp.ForceTable.from_csv(file, name="maker")
     assert printed(capsys, f"foundation {file}") == f"{again}\n"
     block = cp.RigidBody.block(4, 2.5, 9, density=2350, top=(0, -1.2, 1.5))
@@ -84,6 +85,9 @@ def test_makers_tables_and_blocks_on_soil(capsys: CAPTURE, tmp_path: Path) -> No
     for option, value in (("--block", "1,2"), ("--soil", "1,2,3,4"), ("--machine", "1,2")):
         typed = f"foundation i4 --block=1,2,3 --soil=6e7 {option}={value}"
         assert refused(capsys, typed).startswith(f"{option} = {value}: give ")
+    assert refused(capsys, "foundation i4 -o a.txt").startswith("--out = 'a.txt'")
+    line = "foundation i4 --block=1,2,3 --soil=6e7 -o a.csv"
+    assert refused(capsys, line).startswith("--out = a.csv: is of a table")
     line = "foundation i4 --rpm 900:1000:100 --maker"
     assert refused(capsys, line).startswith("--rpm = 900:1000:100: --maker takes one")
 

@@ -40,7 +40,7 @@ def test_tables_have_the_figures_of_foundation_and_guide_moments(name: str) -> N
     table = cp.force_table(engine, rpm, orders=orders)
     free = cp.foundation_table(engine, rpm, orders=orders)
     guide = cp.guide_moments(engine, rpm, orders=orders)
-    makers = {(name, scaling): value * 1e3 for name, _, value, _, scaling in table._listed()}
+    makers = {(called, scaling): value * 1e3 for called, _, value, _, scaling in table._listed()}
     size = max(map(abs, makers.values()))
     for n in orders:
         of_free = {
@@ -53,9 +53,9 @@ def test_tables_have_the_figures_of_foundation_and_guide_moments(name: str) -> N
         for key, of in ((f"H{n}", guide.h_moment), (f"X{n}", guide.x_bimoment)):
             expected[key, "speed squared"] = complex(of.inertia[n])
             expected[key, "independent"] = complex(of.gas[n])
-        for key, value in expected.items():
+        for pair, value in expected.items():
             # Roundings of the largest of all.
-            assert abs(makers.pop(key, 0.0) - value) <= 1e-12 * size, key
+            assert abs(makers.pop(pair, 0j) - value) <= 1e-12 * size, pair
     assert not makers
 
 

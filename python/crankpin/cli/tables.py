@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import inputs, units
+from crankpin._support import files, inputs, units
 from crankpin._support.frames import Frames
 from crankpin.analysis.force_table import force_table
 from crankpin.analysis.foundation_table import foundation_table
@@ -61,8 +61,14 @@ OF_SOIL = ("--soil", "--machine", "--top", "--density", "--embedment", "--soil-d
     option(
         "--maker",
         action="store_true",
-        help="amplitudes by their names, M1V, M1H, M2V, H6, X3, at one speed: with --csv a table "
-        "that this command reads",
+        help="amplitudes by their names, M1V, M1H, M2V, H6, X3, at one speed",
+    ),
+    option(
+        "-o",
+        "--out",
+        argument="path",
+        metavar="FILE",
+        help="write the table of --maker, which this command reads (.csv)",
     ),
     option("--table-rpm", metavar="RPM", help="crank speed of a table that does not have it"),
     option("--lag", action="store_true", help="phases of the table are lags: cos(n·θ − phase)"),
@@ -123,18 +129,27 @@ def _foundation(call: Given) -> Shown:
         if call.text(flag) is not None:
             raise rejected(flag, call.text(flag), "needs --block")
     if isinstance(source, ForceTable):
-        return Shown(source.frames, source)
-    if call.text("--maker"):
+        return _written(call, source, note)
+    if call.text("--maker") or call.text("--out") is not None:
         if np.ndim(rpm):
             raise rejected("--rpm", call.text("--rpm"), "--maker takes one speed")
         plane = call.optional("--reference-z", "m")
         table = force_table(source, rpm, orders=_orders(call, "auto"), reference_z=plane)
-        return Shown(table.frames, table, note=note)
+        return _written(call, table, note)
     orders: Any = _orders(call, (1, 2))
     if isinstance(orders, str):
         raise rejected("--orders", orders, "give multiples of crank speed, such as 1,2,4")
     free = foundation_table(source, rpm, orders=orders, **call.keywords(foundation_table))
     return Shown(free.frames, free)
+
+
+def _written(call: Given, table: ForceTable, note: str) -> Shown:
+    """Return a maker's table, written to the file of ``--out``."""
+    if (typed := call.text("--out")) is not None:
+        path = inputs.file_path(typed, (".csv",), "the table of --maker is .csv", "--out")
+        files.write(path, table.to_csv())
+        note = f"{note}Written to {path}.\n"
+    return Shown(table.frames, table, note=note)
 
 
 def _orders(call: Given, default: Any) -> Any:  # noqa: ANN401 - orders
@@ -155,13 +170,15 @@ def _source(call: Given) -> tuple[Engine | ForceTable, str]:
     for flag in ("--table-rpm", "--lag"):
         if typed := call.text(flag):
             raise rejected(flag, str(typed), "is of a table, and NAME is an engine")
-    if call.text("--cycle") is None and not any(call.text(flag) for flag in OF_GAS):
+    if call.text("--cycle") is None and all(call.text(flag) is None for flag in OF_GAS):
         return call.engine("foundation"), ""
     return fired(call, "foundation")
 
 
 def _on_soil(call: Given, source: Engine | ForceTable, rpm: Any, note: str) -> Shown:  # noqa: ANN401
     """Return motion, modes and forces of a block on soil."""
+    if (typed := call.text("--out")) is not None:
+        raise rejected("--out", typed, "is of a table: leave it out beside --block, or use --save")
     sides = call.numbers("--block", "m") or []
     if len(sides) != 3:
         raise rejected("--block", call.text("--block"), "give three sides: W,H,L")

@@ -194,7 +194,7 @@ class ForceTable(Framed, Input):
         names, orders, values, row_units, scalings = (
             zip(*listed, strict=True) if (listed := [*self._listed()]) else ((), (), (), (), ())
         )
-        columns = (
+        columns = [
             Column("name", names),
             Column("order", orders),
             Column("amplitude", tuple(map(abs, values)), digits=6),
@@ -202,16 +202,16 @@ class ForceTable(Framed, Input):
             Column("phase", tuple(np.angle(values, deg=True).tolist()), "°", digits=6),
             Column("over speed", scalings),
             Column("rpm", (self.rpm,) * len(names), digits=10),
-        )
+        ]
         if any(self.about):
-            point = " ".join(f"{along:.17g}" for along in self.about)
-            columns = (*columns, Column("about", (point,) * len(names)))
+            point = " ".join(f"{along:.12g}" for along in self.about)
+            columns.append(Column("about", (point,) * len(names)))
         about = units.Figure(self.about, "m", ".6g", "({}, {}, {})")
         title = units.Text(
             f"{labels.name_of(self)} at {self.rpm:.10g} rpm: forces and moments about ", about
         )
         note = "Order n is amplitude·cos(n·θ + phase), θ the crank angle."
-        return Table(title, columns, note, row_units=tuple(row_units))
+        return Table(title, tuple(columns), note, row_units=tuple(row_units))
 
     @classmethod
     def from_csv(

@@ -147,7 +147,7 @@ class RigidBody(Input):
 
         Parameters
         ----------
-        *bodies : RigidBody
+        *bodies : RigidBody, optional
             The bodies, in the engine's axes.
 
         Returns

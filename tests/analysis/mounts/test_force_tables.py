@@ -54,7 +54,7 @@ def test_orders_of_a_table_are_chosen_by_themselves_and_beside_the_engines() -> 
 
 def test_amplitudes_scale_with_speed_as_the_table_says() -> None:
     p, _ = random_case(3)
-    rows = {2: (1.0, 2j, -3.0, 4.0, 5.0, 6j)}
+    rows: dict[float, tuple[complex, ...]] = {2: (1.0, 2j, -3.0, 4.0, 5.0, 6j)}
     grows, stays = cp.ForceTable(500, rows), cp.ForceTable(500, None, rows)
     at = {n: cp.Powertrain(t, p.body, p.mounts).response([250.0, 500.0, 1500.0]).wrench
           for n, t in (("grows", grows), ("stays", stays))}  # fmt: skip
@@ -98,7 +98,7 @@ def test_all_readings_take_a_table(tmp_path: Path) -> None:
         for each in (p, alone)
     ]  # fmt: skip
     stiffnesses = [np.array([m.stiffness for m in f.fitted.mounts]) for f in fitted]
-    np.testing.assert_allclose(*stiffnesses, rtol=1e-4)
+    np.testing.assert_allclose(stiffnesses[0], stiffnesses[1], rtol=1e-4)
     assert fitted[1].fitted.forces == (table,)
 
 

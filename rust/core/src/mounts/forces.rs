@@ -77,7 +77,7 @@ impl ForceTable {
         all.filter_map(|(halves, _)| Order::from_halves(*halves).ok())
     }
 
-    /// Load of an order about a point, over the square of the angular speed of the crank, and what stays.
+    /// Load of an order about a point, over the square of the angular speed of the crank, and that of any speed.
     #[must_use]
     pub fn loads(&self, order: Order, point: Vector3<f64>) -> [ComplexVector6; 2] {
         let omega = self.rpm / UNIT_RPM;

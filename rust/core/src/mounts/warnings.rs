@@ -7,7 +7,7 @@ use crate::numbers::figure::significant;
 /// Part of the largest principal moment that rounding lets the sum of the others lack.
 const MOST_MISSING: f64 = 1e-9;
 /// Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres.
-const FARTHEST_MOUNT: f64 = 5.0;
+const FARTHEST_MOUNT: f64 = 20.0;
 /// Radii of gyration, m, of bodies from a model engine to the block under a ship's; others are in other units.
 const GYRATION: [f64; 2] = [1e-3, 20.0];
 /// Stiffness of a mount, N/m, below and above which it is likely not in N/m: soil under a large block reaches 1e11.

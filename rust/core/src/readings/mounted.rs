@@ -58,7 +58,7 @@ pub(crate) struct EngineLoads {
     groups: List<GroupIndex, Group>,
     /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
-    /// Of tables of forces at each order, over the square of the angular speed, and what stays.
+    /// Of tables of forces at each order, over the square of the angular speed, and those of any speed.
     of_tables: Vec<[ComplexVector6; 2]>,
 }
 
