@@ -62,6 +62,11 @@ def test_makers_tables_and_blocks_on_soil(capsys: CAPTURE, tmp_path: Path) -> No
     assert file.read_text(encoding="utf-8") == printed(capsys, f"{line} --csv")
     again = cp.ForceTable.from_csv(file, name="maker")
     assert printed(capsys, f"foundation {file}") == f"{again}\n"
+    universal = tmp_path / "maker.unv"
+    printed(capsys, f"foundation {file} -o {universal}")
+    read = cp.ForceTable.from_unv(universal, name="maker")
+    assert printed(capsys, f"foundation {universal}") == f"{read}\n"
+    assert refused(capsys, f"foundation {universal} --lag").startswith("--lag = True: is of a ta")
     block = cp.RigidBody.block(4, 2.5, 9, density=2350, top=(0, -1.2, 1.5))
     machine = cp.RigidBody(45e3, (0, 0.4, 1.5), (2e5, 1.8e5, 4e4))
     body = cp.RigidBody.combined(block, machine)

@@ -131,3 +131,92 @@ def test_loads_over_speed_are_no_table() -> None:
     load = cp.PeriodicLoad("fan", on="block", torque={1: [1, 2]}, rpm=[100, 200])
     with pytest.raises(cp.InputError, match=r"^loads = .*no tables over speed"):
         cp.force_table(cp.Engine.preset("i4").with_loads([load]), 150.0)
+
+
+# --- universal files ------------------------------------------------------------------------------
+
+
+PUBLISHED = """    -1
+    58
+F_y of S
+speed squared
+NONE
+about 0 0 1.5 m
+NONE
+   27         0    0         0 NONE               1   2 NONE               0   0
+         6         2         0  0.00000E+00  0.00000E+00  1.05000E+02
+        20    0    0    0 Order                NONE
+        13    0    1    0 Force                N
+         0    0    0    0 NONE                 NONE
+        19    0    0    0 Speed                rpm
+  1.00000E+00 -1.500000000000E+03  2.500000000000E+02
+  4.00000E+00  0.000000000000E+00 -7.125000000000E+01
+    -1
+"""
+"""Records at the columns of the published format: (I5,I10) twice, (1X,10A1,I10,I4) twice, (3I10,
+3E13.5), (I10,3I5,2(1X,20A1)), E13.5 and 2E20.12."""
+
+
+def test_universal_files_have_the_published_columns(tmp_path: Path) -> None:
+    rows: dict[float, tuple[complex, ...]] = {
+        1: (0, -1500 + 250j, 0, 0, 0, 0),
+        4: (0, -71.25j, 0, 0, 0, 0),
+    }
+    table = cp.ForceTable(105, rows, about=(0, 0, 1.5), name="S")
+    table.to_unv(tmp_path / "table.unv")
+    written = (tmp_path / "table.unv").read_text(encoding="utf-8").splitlines()
+    assert [line.rstrip() for line in written] == PUBLISHED.splitlines()
+    assert cp.ForceTable.from_unv(tmp_path / "table.unv", name="S") == table
+
+
+def test_a_table_reads_back_from_a_universal_file(tmp_path: Path) -> None:
+    table = cp.force_table(MARINE, 105.0, reference_z=0.4)
+    table.to_unv(tmp_path / "table.uff")
+    again = cp.ForceTable.from_unv(tmp_path / "table.uff")
+    assert (again.rpm, again.about) == (105.0, (0.0, 0.0, 0.4))
+    for name in ("speed_squared", "independent"):
+        for order, values in getattr(table, name).items():
+            found = getattr(again, name).get(order, (0j,) * 7)
+            # Twelve digits after the first, and no X type.
+            np.testing.assert_allclose(found[:6], values[:6], rtol=1e-12)
+
+
+def test_universal_files_of_others_are_read(tmp_path: Path) -> None:
+    """Single precision, even frequencies, numbers that touch, against +x, other datasets."""
+    file = tmp_path / "maker.unv"
+    other = "    -1\n   151\nmodel\n    -1\n"
+    text = PUBLISHED.splitlines()
+    text[3] = text[5] = "NONE"
+    text[7] = text[7].replace("   27", "   12").replace("   1   2", "   1  -4")
+    text[8] = "         5         3         1  1.00000E+00  1.00000E+00  0.00000E+00"
+    text[9] = text[9].replace("20 ", "18 ", 1)
+    text[13:15] = ["  0.00000E+00-2.00000E+02  3.00000E+00 -1.00000E+00  0.00000E+00  0.00000E+00"]
+    file.write_text(other + "\n".join(text), encoding="utf-8")
+    table = cp.ForceTable.from_unv(file, rpm=120)
+    assert table.speed_squared == {0.5: (0, 0, 0, 200j, 0, 0, 0), 1: (0, 0, 0, -3 + 1j, 0, 0, 0)}
+    with pytest.raises(cp.InputError, match=r"^path has 0 speeds"):
+        cp.ForceTable.from_unv(file)
+    with pytest.raises(cp.InputError, match=r"^path has the order 0\.6: orders are multiples"):
+        cp.ForceTable.from_unv(file, rpm=100)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("    58", "    55", "path has no dataset 58"),
+        ("   1   2 ", "   1   0 ", "path has a dataset at line 2 that is no force or moment"),
+        ("         6 ", "         4 ", "path has a dataset at line 2 that is no force or moment"),
+        ("        20 ", "        17 ", "path has a dataset at line 2 that is no force or moment"),
+        ("         6         2 ", "         6         3 ", "path has 6 numbers in the dataset at"),
+        ("1.00000E+00 -1", "1.000x0E+00 -1", "path has a dataset at line 2 that cannot be read"),
+    ],
+)
+def test_universal_files_that_are_wrong_say_where(
+    tmp_path: Path, old: str, new: str, said: str
+) -> None:
+    assert old in PUBLISHED
+    file = tmp_path / "table.unv"
+    file.write_text(PUBLISHED.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(cp.InputError) as caught:
+        cp.ForceTable.from_unv(file)
+    assert str(caught.value).startswith(said)

@@ -12,7 +12,7 @@ from crankpin._support.record import changed
 from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.guide_moments import guide_moments
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.torsional_excitation import GAS_AND_INERTIA
+from crankpin.analysis.torsional_excitation import GAS_AND_INERTIA, HIGHEST, orders_up_to
 from crankpin.model import checks
 from crankpin.model.forces import SCALINGS, ForceTable
 
@@ -40,7 +40,8 @@ def force_table(
     rpm : float
         Crank speed, rpm.
     orders : number, sequence of numbers or "auto", default "auto"
-        Multiples of crank speed, halves too, or ``"auto"`` for those of the engine's balance.
+        Multiples of crank speed, halves too; ``"auto"`` for all up to 12, or to twice the number of
+        cylinders where that is more, as of :func:`crankpin.guide_moments`.
     reference_z : float, optional
         Plane about which couples and the X-type bimoment are, m; by default the engine's own.
 
@@ -71,6 +72,9 @@ def force_table(
     """
     core = engine_core(engine)
     wanted = inputs.half_orders(orders)
+    if wanted is None:
+        chosen = orders_up_to(engine, max(HIGHEST, 2 * len(engine)))
+        wanted = inputs.explicit_half_orders(chosen)
     speed = inputs.positive("rpm", rpm)
     plane = engine.reference_z
     if reference_z is not None:
@@ -84,7 +88,7 @@ def force_table(
         for scaling in SCALINGS
     }
     with suppressed():
-        guide = guide_moments(engine, speed, orders=wanted or table.orders, reference_z=plane)
+        guide = guide_moments(engine, speed, orders=wanted, reference_z=plane)
     for part, scaling in SCALING_OF.items():
         of_part = guide.read(f"x_bimoment.{part}")
         for order, bimoment in zip(guide.orders, of_part.tolist(), strict=True):

@@ -34,6 +34,8 @@ OF_GAS = ("--cycle", "--firing-order", "--bore", "--crankcase")
 """Options that are of gas pressure, which then counts."""
 
 
+TABLES = (".csv", ".unv", ".uff")
+"""Endings of makers' tables."""
 ON_SOIL = "a block on soil"
 OF_SOIL = ("--soil", "--machine", "--top", "--density", "--embedment", "--soil-damping", "--at")
 """Options that need a block."""
@@ -45,7 +47,7 @@ OF_SOIL = ("--soil", "--machine", "--top", "--density", "--embedment", "--soil-d
     option(
         "name",
         metavar="NAME",
-        help="a preset, an engine file (.toml, .json), or a maker's table of forces (.csv)",
+        help="a preset, an engine file (.toml, .json), or a maker's table of forces (.csv, .unv)",
     ),
     "--add-load",
     option(
@@ -68,7 +70,7 @@ OF_SOIL = ("--soil", "--machine", "--top", "--density", "--embedment", "--soil-d
         "--out",
         argument="path",
         metavar="FILE",
-        help="write the table of --maker, which this command reads (.csv)",
+        help="write the table of --maker, which this command reads (.csv, .unv)",
     ),
     option("--table-rpm", metavar="RPM", help="crank speed of a table that does not have it"),
     option("--lag", action="store_true", help="phases of the table are lags: cos(n·θ − phase)"),
@@ -146,8 +148,12 @@ def _foundation(call: Given) -> Shown:
 def _written(call: Given, table: ForceTable, note: str) -> Shown:
     """Return a maker's table, written to the file of ``--out``."""
     if (typed := call.text("--out")) is not None:
-        path = inputs.file_path(typed, (".csv",), "the table of --maker is .csv", "--out")
-        files.write(path, table.to_csv())
+        hint = "the table of --maker is .csv, .unv or .uff"
+        path = inputs.file_path(typed, TABLES, hint, "--out")
+        if path.suffix.lower() == ".csv":
+            files.write(path, table.to_csv())
+        else:
+            table.to_unv(path)
         note = f"{note}Written to {path}.\n"
     return Shown(table.frames, table, note=note)
 
@@ -159,14 +165,18 @@ def _orders(call: Given, default: Any) -> Any:  # noqa: ANN401 - orders
 def _source(call: Given) -> tuple[Engine | ForceTable, str]:
     """Return the engine or the maker's table of NAME, and a note of what was assumed."""
     name = call.text("name")
-    if Path(name).suffix.lower() == ".csv":
+    if (ending := Path(name).suffix.lower()) in TABLES:
         of_engine = (*OF_GAS, "--maker", "--add-load", "--reference-z", "--vertical")
         for flag in of_engine:
             if typed := call.text(flag):
                 raise rejected(flag, str(typed), "is of an engine, and NAME is a table")
         speed = call.optional("--table-rpm", "rpm")
-        table = ForceTable.from_csv(name, speed, lag=call.text("--lag"), name=Path(name).stem)
-        return table, ""
+        if ending == ".csv":
+            lag = call.text("--lag")
+            return ForceTable.from_csv(name, speed, lag=lag, name=Path(name).stem), ""
+        if call.text("--lag"):
+            raise rejected("--lag", "True", "is of a table of text, and NAME is a universal file")
+        return ForceTable.from_unv(name, speed, name=Path(name).stem), ""
     for flag in ("--table-rpm", "--lag"):
         if typed := call.text(flag):
             raise rejected(flag, str(typed), "is of a table, and NAME is an engine")

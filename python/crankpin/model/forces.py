@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, labels, units
+from crankpin._support import files, inputs, labels, units
 from crankpin._support.frames import Framed
 from crankpin._support.record import Input, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.model import unv
 from crankpin.model.loads import _amplitude, of_rows
 from crankpin.model.mounts import _vector
 
@@ -316,6 +317,120 @@ class ForceTable(Framed, Input):
             except ValueError as error:
                 raise inputs.faulty("path", f"has {error} in column about", CSV_HINT) from None
         return cls(rpm, amplitudes["speed squared"], amplitudes["independent"], about, name)
+
+    def to_unv(self, path: str | Path) -> None:
+        """Write the table to a universal file, a dataset 58 of each force and moment.
+
+        A dataset is a function of order, complex and double, at node 1 along or about x, y or z, N
+        and N·m, with the crank speed as its third coordinate; its second line of text says how it
+        changes with speed, the fourth about which point moments are. The X-type bimoment, which is
+        none of the six, is left out.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file, which ends in ``.unv`` or ``.uff``.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        OSError
+            If the file cannot be written.
+        """
+        file = inputs.file_path(path, unv.ENDINGS, "a universal file ends in .unv or .uff", "path")
+        about = " ".join(f"{along:.12g}" for along in self.about)
+        texts = list[str]()
+        for scaling in SCALINGS:
+            rows = getattr(self, scaling.replace(" ", "_"))
+            for place, axis in enumerate(AXES):
+                own = [(order, values[place]) for order, values in rows.items() if values[place]]
+                if not own:
+                    continue
+                orders, values = zip(*own, strict=True)
+                names = (f"{axis} of {self.title}", scaling, f"about {about} m")
+                function = unv.Function(names, place + 1, self.rpm, True, orders, values)
+                texts.append(unv.text_of(function))
+        files.write(file, "".join(texts))
+
+    @classmethod
+    def from_unv(
+        cls,
+        path: str | Path,
+        rpm: float | None = None,
+        *,
+        about: ArrayLike | None = None,
+        name: str = "",
+    ) -> Self:
+        """Return the table in a universal file, as :meth:`to_unv` writes it or as makers send it.
+
+        Datasets 58 are read whose functions are complex and of order or frequency, of one node.
+        Where the second line of text does not say it, forces and moments about x and y grow with
+        the square of the speed, those about z stay.
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+            Name of the file.
+        rpm : float, optional
+            Crank speed of the table, rpm; by default that of the file.
+        about : sequence of float, optional
+            Point about which moments are, m; by default that of the file, or (0, 0, 0).
+        name : str, default ""
+            Name of the machine.
+
+        Returns
+        -------
+        ForceTable
+            The table.
+
+        Raises
+        ------
+        InputError
+            If a dataset cannot be read, a frequency is no multiple of half the crank speed, or the
+            speed is left out.
+        OSError
+            If the file cannot be read.
+        """
+        file = inputs.file_path(path, unv.ENDINGS, "a universal file ends in .unv or .uff", "path")
+        functions = list(unv.functions(file.read_text(encoding="latin-1")))
+        if not functions:
+            raise inputs.faulty("path", "has no dataset 58", unv.HINT)
+        speed = _only("speeds", {f.rpm for f in functions if f.rpm}) if rpm is None else rpm
+        amplitudes: dict[str, dict[Any, list[complex]]] = {scaling: {} for scaling in SCALINGS}
+        points = set[str]()
+        for function in functions:
+            _, scaling, point = function.names
+            place = abs(function.direction) - 1
+            if scaling not in SCALINGS:
+                scaling = SCALINGS[place == 5]
+            if match := re.fullmatch(r"about (.*) m", point):
+                points.add(match[1])
+            for at, value in zip(function.abscissa, function.values, strict=True):
+                if value:
+                    order = at if function.by_order else at * 60.0 / inputs.positive("rpm", speed)
+                    values = amplitudes[scaling].setdefault(_order(order), [0.0] * 7)
+                    values[place] += value if function.direction > 0 else -value
+        if about is None:
+            about = [_number(along) for along in _only("points", points or {"0 0 0"}).split()]
+        return cls(speed, amplitudes[SCALINGS[0]], amplitudes[SCALINGS[1]], about, name)
+
+
+def _only(what: str, values: set[Any]) -> Any:  # noqa: ANN401 - of any type
+    """Return the one value of a file, or raise an error."""
+    if len(values) != 1:
+        raise inputs.faulty("path", f"has {len(values)} {what}", f"give one, {what[:-1]}: `rpm`")
+    return next(iter(values))
+
+
+def _order(number: float) -> Order:
+    """Return a multiple of crank speed of a file, to a few digits."""
+    halves = round(2.0 * number)
+    if abs(2.0 * number - halves) > 1e-3 * max(1.0, abs(number)):
+        hint = "orders are multiples of half the crank speed: is `rpm` that of the file?"
+        raise inputs.faulty("path", f"has the order {number:.6g}", hint)
+    (order,) = inputs.explicit_half_orders([0.5 * halves], "path")
+    return order
 
 
 def _meant(cells: Mapping[str, str]) -> tuple[Any, int, float, str]:

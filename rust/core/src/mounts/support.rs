@@ -207,12 +207,11 @@ impl Powertrain {
                 };
                 let count = self.mounts.len();
                 for (k, above) in self.deflections.iter().enumerate() {
-                    let below = match k.checked_sub(count) {
-                        Some(place) => rotation_of(&self.mounts[self.rotations[place]]),
-                        None => {
-                            let mount = &self.mounts[k];
-                            mount.axes() * motion_of_point(&(mount.at() - cg))
-                        }
+                    let below = if let Some(place) = k.checked_sub(count) {
+                        rotation_of(&self.mounts[self.rotations[place]])
+                    } else {
+                        let mount = &self.mounts[k];
+                        mount.axes() * motion_of_point(&(mount.at() - cg))
                     };
                     both(above, &-below);
                 }
