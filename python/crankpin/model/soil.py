@@ -50,7 +50,7 @@ class Soil(Input):
     >>> block = cp.RigidBody.block(width=4, height=2.5, length=9)
     >>> ground = cp.Soil(shear_modulus=6e7, poisson=0.35).mount(block, width=4, length=9, y=-2.5)
     >>> [float(f"{k:.4g}") for k in ground.stiffness]
-    [1079000000.0, 1250000000.0, 1079000000.0]
+    [1006000000.0, 1250000000.0, 1006000000.0]
     """
 
     shear_modulus: float
