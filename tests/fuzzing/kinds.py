@@ -361,6 +361,8 @@ KINDS: dict[str, list[Any]] = {
     "embedment": [0.5],
     "top": [(0.0, -0.5, 0.0)],
     "bodies": [POWERTRAIN.body],
+    "height": [0.3],
+    "ForceTable.about": [(0.0, 0.0, 0.1)],
     "rotational_stiffness": [1e4],
     "rotational_loss_factor": [0.1],
     "rotational_damping": [10.0],

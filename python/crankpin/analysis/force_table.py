@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Orders
     from crankpin.model.engine import Engine
 
+FARTHEST = 1e9
+"""Distance of a plane, m, beyond which moments are rejected."""
 SCALING_OF = dict(zip(GAS_AND_INERTIA, reversed(SCALINGS), strict=True))
 """Part of a guide-force moment → what it does as the speed changes."""
 
@@ -80,8 +82,19 @@ def force_table(
     if reference_z is not None:
         plane = inputs.finite("reference_z", reference_z)
         checks.place(core, "reference_z", plane)
+    if abs(plane) > FARTHEST:
+        raise inputs.rejected("reference_z", plane, f"give metres, at most {FARTHEST:g}")
     inputs.warn_of_units(mean_piston_speed(engine, speed))
-    found = json.loads(_core.force_table(core, speed, wanted, (0.0, 0.0, plane)))
+    try:
+        found = json.loads(_core.force_table(core, speed, wanted, (0.0, 0.0, plane)))
+    except _core.InputError as error:
+        if error.argument == "speed_squared" and error.value == "none":
+            hint = "no force or moment of the engine is of these orders"
+            raise inputs.rejected("orders", orders, hint) from None
+        if (error.argument or "").startswith(("speed_squared", "independent", "about")):
+            name, value = ("rpm", rpm) if reference_z is None else ("reference_z", reference_z)
+            raise inputs.rejected(name, value, "forces or moments are too large") from None
+        raise
     table = ForceTable._of(found | {"name": engine.title})
     rows: dict[str, dict[Any, list[complex]]] = {
         scaling: {n: list(values) for n, values in _of(table, scaling).items()}

@@ -20,6 +20,10 @@ Vector: TypeAlias = tuple[float, float, float]
 Rows: TypeAlias = tuple[Vector, Vector, Vector]
 
 THREE = "give three numbers"
+SIDES = (1e-3, 1e3)
+"""Least and largest side of a block, m."""
+DENSITIES = (1.0, 1e5)
+"""Least and largest density of a block, kg/m³."""
 
 
 class RigidBody(Input):
@@ -138,8 +142,15 @@ class RigidBody(Input):
             inputs.positive("height", height),
             inputs.positive("length", length),
         )
+        for name, side in zip(("width", "height", "length"), sides, strict=True):
+            if not SIDES[0] <= side <= SIDES[1]:
+                raise inputs.rejected(name, side, f"give metres, {SIDES[0]:g} to {SIDES[1]:g}")
+        heavy = inputs.number("density", density)
+        if not DENSITIES[0] <= heavy <= DENSITIES[1]:
+            hint = f"give kg/m³, {DENSITIES[0]:g} to {DENSITIES[1]:g}: 2400 of concrete"
+            raise inputs.rejected("density", density, hint)
         centre = (x, y - 0.5 * sides[1], z)
-        return cls._of(_core.block(sides, centre, inputs.number("density", density)))
+        return cls._of(_core.block(sides, centre, heavy))
 
     @classmethod
     def combined(cls, *bodies: RigidBody) -> RigidBody:
