@@ -885,7 +885,7 @@ impl Engine {
     }
 }
 
-fn unreadable(error: &serde_json::Error) -> PyErr {
+pub fn unreadable(error: &serde_json::Error) -> PyErr {
     python_error(Error::value("loads", error, "give a list of crankpin.PeriodicLoad"))
 }
 
