@@ -459,7 +459,10 @@ def _of_mapping(source: Mapping[Any, Any], roles: Sequence[_Role]) -> list[_Chan
             choices = ", ".join(repr(key) for key in list(source)[: table_files.FIRST_WORDS])
             hint = f"there is none; the source has {choices}"
             raise inputs.rejected(role.role, role.column, hint)
-        values = inputs.contiguous(inputs.array(role.role, source[role.column]).ravel())
+        samples = source[role.column]
+        if isinstance(samples, np.ndarray) and samples.dtype == bool:  # of a logic analyser
+            samples = samples.astype(float)
+        values = inputs.contiguous(inputs.array(role.role, samples).ravel())
         if (wrong := ~np.isfinite(values)).any():
             fault = f"has {values[wrong][0]} as sample {int(wrong.argmax())}"
             raise inputs.faulty(role.role, fault, "give finite numbers")
