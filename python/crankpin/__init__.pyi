@@ -15,6 +15,7 @@ from crankpin.analysis.design.design import design as design
 from crankpin.analysis.exercises import exercise as exercise
 from crankpin.analysis.firing import throws as throws
 from crankpin.analysis.flywheel import flywheel as flywheel
+from crankpin.analysis.force_table import force_table as force_table
 from crankpin.analysis.foundation_table import foundation_table as foundation_table
 from crankpin.analysis.gas_exchange import PortTiming as PortTiming
 from crankpin.analysis.gas_exchange import ValveTiming as ValveTiming
@@ -43,6 +44,7 @@ from crankpin.model.cylinder import Cylinder as Cylinder
 from crankpin.model.cylinder import Rod as Rod
 from crankpin.model.cylinder import slider_crank_harmonics as slider_crank_harmonics
 from crankpin.model.engine import Engine as Engine
+from crankpin.model.forces import ForceTable as ForceTable
 from crankpin.model.gas_torque import gas_torque_harmonics as gas_torque_harmonics
 from crankpin.model.links import LinkRod as LinkRod
 from crankpin.model.links import LinkRods as LinkRods
@@ -54,6 +56,7 @@ from crankpin.model.mounts import RigidBody as RigidBody
 from crankpin.model.presets import presets as presets
 from crankpin.model.shafts import Shaft as Shaft
 from crankpin.model.shafts import Unbalance as Unbalance
+from crankpin.model.soil import Soil as Soil
 from crankpin.model.supports import Receptance as Receptance
 from crankpin.model.supports import Subframe as Subframe
 from crankpin.model.traces import Traces as Traces

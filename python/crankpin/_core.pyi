@@ -47,15 +47,19 @@ __all__ = [
     "arrangement",
     "balance",
     "bay_loads",
+    "block",
     "body_warnings",
     "bounds_about",
     "centred_table",
     "check_cylinder",
+    "check_forces",
     "check_load",
     "check_mount",
+    "check_soil",
     "check_support",
     "check_timing",
     "closed_form",
+    "combined",
     "compression_peak",
     "corrections",
     "crank_clock",
@@ -80,6 +84,7 @@ __all__ = [
     "fires_a_turn_later",
     "fit_shafts",
     "fit_weights",
+    "force_table",
     "forward_weight",
     "gas_text",
     "gas_warnings",
@@ -125,6 +130,7 @@ __all__ = [
     "rod_ratios",
     "roll_torque",
     "shared",
+    "soil_mount",
     "speed_within_cycles",
     "star",
     "stiffness_warnings",
@@ -355,10 +361,11 @@ class Engine:
     ) -> Engine: ...
     def with_master_rods(
         self,
-        radius: float,
+        radius: float | None,
         length: float | None,
         angles_deg: Sequence[str] | None,
         big_end_mass: float | None,
+        equal: str | None,
         masters: Sequence[int] | None,
     ) -> Engine: ...
     def dead_centres(
@@ -705,7 +712,7 @@ class MountObjectives:
     def __new__(
         cls,
         powertrain: Powertrain,
-        engine: Engine,
+        engine: Engine | None,
         variables: Sequence[tuple[int, str]],
         objectives: Sequence[tuple[str, float | None]],
         rpm: Sequence[float] | _Real,
@@ -1010,6 +1017,21 @@ _Body: TypeAlias = tuple[float, _Vector, Any]
 def rigid_body(
     mass: float, cg: Sequence[float], inertia: Sequence[Sequence[float]], products: str | None
 ) -> tuple[list[list[float]], list[float]]: ...
+def block(sides: Sequence[float], centre: Sequence[float], density: float) -> _Body: ...
+def combined(bodies: Sequence[_Body]) -> _Body: ...
+def check_forces(text: str) -> None: ...
+def force_table(
+    engine: Engine, rpm: float, orders: Sequence[float] | None, about: Sequence[float]
+) -> str: ...
+def check_soil(figures: tuple[float, float, float, float]) -> None: ...
+def soil_mount(
+    figures: tuple[float, float, float, float],
+    base: Sequence[float],
+    name: str,
+    at: Sequence[float],
+    depth: float,
+    on: _Body,
+) -> tuple[Any, ...]: ...
 def check_mount(figures: tuple[Any, ...]) -> None: ...
 def check_support(support: tuple[Any, ...]) -> None: ...
 def motor_shares(resonance: float, damping_ratio: float, frequency: _Real) -> _Complex: ...
@@ -1019,11 +1041,17 @@ def peaks_of_vectors(orders: Sequence[float], phasors: _Complex) -> _Real: ...
 @final
 class Powertrain:
     def __new__(
-        cls, body: _Body, mounts: Sequence[tuple[Any, ...]], support: tuple[Any, ...] | None
+        cls,
+        body: _Body,
+        mounts: Sequence[tuple[Any, ...]],
+        support: tuple[Any, ...] | None,
+        forces: str | None = None,
     ) -> Self: ...
+    @property
+    def forces(self) -> str: ...
     @staticmethod
-    def from_text(text: str, toml: bool) -> tuple[Engine, Powertrain | None]: ...
-    def to_text(self, engine: Engine, toml: bool) -> str: ...
+    def from_text(text: str, toml: bool) -> tuple[Engine | None, Powertrain | None]: ...
+    def to_text(self, engine: Engine | None, toml: bool) -> str: ...
     @property
     def body(self) -> _Body: ...
     @property
@@ -1058,7 +1086,7 @@ class Powertrain:
     ) -> tuple[_Real, list[_Real], _Real, list[list[list[float]]]]: ...
     def designs(
         self,
-        engine: Engine,
+        engine: Engine | None,
         vary: Sequence[tuple[int, str, _Real]],
         rpm: _Real,
         orders: tuple[Sequence[float] | None, float],
@@ -1067,7 +1095,7 @@ class Powertrain:
     ) -> tuple[tuple[list[float], list[float], list[float]], _Real, _Real, _Real]: ...
     def response(
         self,
-        engine: Engine,
+        engine: Engine | None,
         rpm: _Real,
         orders: Sequence[float] | None,
         rtol: float,

@@ -89,6 +89,7 @@ COMPRESSOR = (
     "compressor --throws 0,180 --bore 80mm --stroke 80mm --rod-length 140mm --piston-mass 400g "
     "--rod-mass 500g"
 )
+ON_SOIL = "marine-5 --rpm 210 --block 4,2.5,9 --soil 6e7"
 IN_PLACE = {
     ("new", "--suction"): f"{COMPRESSOR} --discharge 4bar --suction 1bar",
     ("new", "--discharge"): f"{COMPRESSOR} --discharge 4bar",
@@ -132,6 +133,17 @@ IN_PLACE = {
     ("design", "--shafts"): "i2-360 --by total.force.peak --count 1 --shafts 2,-2",
     ("card", "--bearings"): "v8-crossplane --bearings 40g",
     ("mounts", "--misfire"): "fired.toml --misfire 2",
+    ("foundation", "--top"): f"{ON_SOIL} --top 0,-1,1.5",
+    ("foundation", "--density"): f"{ON_SOIL} --density 2350",
+    ("foundation", "--machine"): f"{ON_SOIL} --machine 45000,0,0.4,1.5",
+    ("foundation", "--soil-damping"): f"{ON_SOIL} --soil-damping 0.03",
+    ("foundation", "--embedment"): f"{ON_SOIL} --embedment 1m",
+    ("foundation", "--at"): f"{ON_SOIL} --at 0,0,1.5m",
+    ("foundation", "--soil"): "marine-5 --rpm 210 --block 4,2.5,9 --soil 60MPa,0.35,1800",
+    ("foundation", "--block"): "marine-5 --rpm 210 --soil 6e7 --block 4,2.5,9m",
+    ("foundation", "--table-rpm"): "maker.csv --table-rpm 105",
+    ("foundation", "--crankcase"): "marine-5 --rpm 210 --cycle diesel --crankcase 1bar",
+    ("foundation", "--atmosphere"): "i4 --cycle run.csv --bore 86mm --atmosphere 1.01bar --maker",
     ("new", "--crank"): "lists --tdc 0,90 --banks 60,120 --z 0,0.1 --crank 0,0",
     ("trace", "--atmosphere"): "i4 run.csv --bore 86mm --atmosphere 1.01bar",
     ("trace", "--tdc"): "i4 run.csv --bore 86mm --tdc 1",
@@ -227,6 +239,7 @@ def _files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     cp.Powertrain(fired.with_cycle(cp.Cycle.example()), body, mounts).save("fired.toml")
     head = "time [s] absolute pressure [bar]"
     np.savetxt("times.csv", np.c_[(theta + 360.0) / 9000.0, bar], header=head)
+    Path("maker.csv").write_text("name,amplitude,unit\nM1V,1200,kNm\n", encoding="utf-8")
     np.savetxt("run.csv", np.c_[theta, bar], header="angle [deg] absolute pressure [bar]")
 
 

@@ -245,6 +245,24 @@ def test_layouts_as_wide_as_lists(capsys: CAPTURE) -> None:
     assert "--cranks" in capsys.readouterr().err
 
 
+def test_knuckles_of_link_rods(capsys: CAPTURE) -> None:
+    sizes = "--stroke 120mm --rod-length 230mm --reciprocating-mass 1kg"
+    for typed, rods in (
+        ("52mm:178mm", cp.LinkRods(0.052, 0.178)),
+        ("52mm:178mm:200g:73,145,217,289",
+         cp.LinkRods(0.052, 0.178, [73, 145, 217, 289], 0.2)),
+        ("52mm:178mm::equal-stroke", cp.LinkRods(0.052, 0.178, equal="stroke")),
+        (":178mm:200g:equal-compression",
+         cp.LinkRods(length=0.178, big_end_mass=0.2, equal="compression")),
+    ):  # fmt: skip
+        five = cp.Engine.radial(cp.Cylinder(0.06, 0.23, 1.0), 5, rods=rods)
+        line = f"radial --cylinders 5 {sizes} --link-rods {typed}"
+        assert made(capsys, line).link_rods == five.link_rods
+    assert 'give "stroke" or "compression"' in refused(
+        capsys, f"new radial --cylinders 5 {sizes} --link-rods 52mm:178mm::equal-height"
+    )
+
+
 def test_cylinders_fire_together(capsys: CAPTURE) -> None:
     for line, order, intervals in [
         (

@@ -52,6 +52,51 @@ def test_foundation(capsys: CAPTURE, tmp_path: Path) -> None:
     assert refused(capsys, "foundation i4 --vertical up").startswith("--vertical")
 
 
+def test_makers_tables_and_blocks_on_soil(capsys: CAPTURE, tmp_path: Path) -> None:
+    six = cp.Engine.preset("marine-6").with_cycle(cp.Cycle.example("diesel", strokes=2))
+    table = cp.force_table(six, 105.0, orders=[1, 2, 6])
+    line = "foundation marine-6 --rpm 105 --cycle diesel --maker --orders 1,2,6"
+    assert printed(capsys, line).startswith(f"{table}\n")
+    file, saved = tmp_path / "maker.csv", tmp_path / "block.toml"
+    assert "Written to" in printed(capsys, f"{line} -o {file}")
+    assert file.read_text(encoding="utf-8") == printed(capsys, f"{line} --csv")
+    again = cp.ForceTable.from_csv(file, name="maker")
+    assert printed(capsys, f"foundation {file}") == f"{again}\n"
+    universal = tmp_path / "maker.unv"
+    printed(capsys, f"foundation {file} -o {universal}")
+    read = cp.ForceTable.from_unv(universal, name="maker")
+    assert printed(capsys, f"foundation {universal}") == f"{read}\n"
+    assert refused(capsys, f"foundation {universal} --lag").startswith("--lag = True: is of a ta")
+    block = cp.RigidBody.block(4, 2.5, 9, density=2350, top=(0, -1.2, 1.5))
+    machine = cp.RigidBody(45e3, (0, 0.4, 1.5), (2e5, 1.8e5, 4e4))
+    body = cp.RigidBody.combined(block, machine)
+    soil = cp.Soil(6e7, 0.33, 1750, damping_ratio=0.03)
+    ground = soil.mount(body, width=4, length=9, at=(0, -3.7, 1.5), embedment=1.0)
+    p = cp.Powertrain(again, body, [ground])
+    moved = p.response([80.0, 100.0, 120.0]).at((0.0, 0.4, 3.0))
+    line = (
+        f"foundation {file} --rpm 80:120:20 --block 4,2.5,9 --density 2350 --top 0,-1.2,1.5 "
+        "--machine 45000,0,0.4,1.5,2e5,1.8e5,4e4 --soil 60MPa,0.33,1750 --soil-damping 0.03 "
+        f"--embedment 1m --at 0,0.4,3 --save {saved}"
+    )
+    text = printed(capsys, line)
+    assert text.startswith(f"{moved.table}\n\n{p.modes().table}\n\n")
+    loaded = cp.Powertrain.load(saved)
+    assert loaded == p
+    assert refused(capsys, f"foundation {file} --maker").startswith("--maker = True: is of an")
+    assert refused(capsys, "foundation i4 --lag").startswith("--lag = True: is of a table")
+    assert refused(capsys, "foundation i4 --soil 1e7").startswith("--soil = 1e7: needs --block")
+    assert refused(capsys, "foundation i4 --block 1,2,3").startswith("--block = 1,2,3: needs --s")
+    for option, value in (("--block", "1,2"), ("--soil", "1,2,3,4"), ("--machine", "1,2")):
+        typed = f"foundation i4 --block=1,2,3 --soil=6e7 {option}={value}"
+        assert refused(capsys, typed).startswith(f"{option} = {value}: give ")
+    assert refused(capsys, "foundation i4 -o a.txt").startswith("--out = 'a.txt'")
+    line = "foundation i4 --block=1,2,3 --soil=6e7 -o a.csv"
+    assert refused(capsys, line).startswith("--out = a.csv: is of a table")
+    line = "foundation i4 --rpm 900:1000:100 --maker"
+    assert refused(capsys, line).startswith("--rpm = 900:1000:100: --maker takes one")
+
+
 def test_guide_moments(capsys: CAPTURE) -> None:
     six = cp.Engine.preset("marine-6")
     plain = cp.guide_moments(six, 210, length=3.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import csv
 import pickle
 
 import crankpin as cp
@@ -11,6 +12,7 @@ import pytest
 from crankpin import InputError
 from crankpin.analysis.geometry import geometry
 from rederivation import link_rods as anew
+from rederivation.link_rods_mp import TABLE
 
 ONE_RADIAN = 60.0 / (2.0 * np.pi)
 """rpm at which ω is 1."""
@@ -149,6 +151,73 @@ def test_dead_centres_are_beside_the_bores() -> None:
     assert cp.dead_centres(cp.Engine.preset("i4")).compression_ratio is None
 
 
+@pytest.mark.parametrize("kind", ["stroke", "compression"])
+def test_knuckles_are_solved_for_equal_strokes_and_compression(kind: str) -> None:
+    radius = 0.052 if kind == "stroke" else None
+    rods = cp.LinkRods(radius, 0.178, big_end_mass=0.2, equal=kind)  # type: ignore[arg-type]
+    cylinder, offset = cp.Cylinder(0.06, 0.23, 1.0), cp.Cylinder(0.06, 0.23, 1.0, 0.004)
+    sixty = [0, 120, 240, 240, 120, 0]
+    theta = np.linspace(0.0, 2.0 * np.pi, 20_001)
+    twin_of_equal_rods = cp.Engine.vee(cylinder, bank_angle_deg=45, throws_deg=[0], spacing=0.2)
+    for engine in (
+        *(cp.Engine.radial(cylinder, count, rods=rods) for count in (3, 4, 5, 9)),
+        cp.Engine.radial(cylinder, 14, rows=2, spacing=0.2, rods=rods, master=[5, 8]),
+        cp.Engine.radial([offset] + [cylinder] * 3, 4, rods=rods),
+        cp.Engine.vee(
+            cylinder, bank_angle_deg=60, throws_deg=sixty, spacing=0.2, rods=rods, master="left"
+        ),
+        cp.Engine.vee(cylinder, bank_angle_deg=180, throws_deg=[0], spacing=0.2, rods=rods),
+        # One of whose cranks turns the other way.
+        cp.Engine.on_cranks([twin_of_equal_rods] * 2, cranks=[(0.5, 0, -1)]).with_link_rods(rods),
+    ):  # fmt: skip
+        ends = cp.dead_centres(engine, compression_ratio=7)
+        assert np.ptp(ends.stroke) <= 1e-12 * ends.stroke[0]
+        assert ends.compression_ratio is not None
+        if kind == "compression":
+            assert np.ptp(ends.height) <= 1e-12 * ends.height[0]
+            assert np.ptp(ends.compression_ratio) < 1e-12
+        assert cp.Engine.from_toml(engine.to_toml()) == engine
+        # The loops of the rods, anew.
+        for k, link in enumerate(engine.link_rods):
+            if link is None:
+                continue
+            assert kind == "compression" or link.radius == 0.052
+            assert link.big_end_mass == 0.2
+            master = engine.cylinders[link.master - 1]
+            bores = np.radians(engine.bank_deg)
+            own, of_master = bores[k], bores[link.master - 1]
+            crankpin = 0.06 * np.exp(1j * theta)
+            path = crankpin - 1j * master.pin_offset * np.exp(1j * of_master)
+            wrist = anew.on_bore(path, 0.23, np.degrees(of_master))
+            shank = (wrist - path) / 0.23
+            knuckle = crankpin + link.radius * shank * np.exp(1j * np.radians(link.angle_deg))
+            piston = (anew.on_bore(knuckle, 0.178, np.degrees(own)) / np.exp(1j * own)).real
+            # Parabolas between steps of a turn's 20 000th part.
+            assert np.ptp(piston) == pytest.approx(ends.stroke[link.master - 1], rel=1e-7)
+            if kind == "compression":
+                assert piston.max() == pytest.approx(ends.height[link.master - 1], rel=1e-8)
+            # Near its bore.
+            apart = (link.angle_deg - np.degrees(own - of_master) + 180) % 360 - 180
+            assert abs(apart) < 2.0
+
+
+def test_an_opposed_link_keeps_its_knuckle_at_the_bore() -> None:
+    flat = cp.Engine.vee(
+        cp.Cylinder(0.06, 0.23, 1.0), bank_angle_deg=180, throws_deg=[0], spacing=0.1,
+        rods=cp.LinkRods(0.052, 0.178, equal="stroke"),
+    )  # fmt: skip
+    link = next(link for link in flat.link_rods if link is not None)
+    assert link.exact_angle == "180"
+    assert flat.vanishing_orders([3, 5]).force.vanishing == (3, 5)
+
+
+def test_a_link_as_long_as_its_master_hangs_on_the_crankpin() -> None:
+    five = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 1.0), 5, rods=cp.LinkRods(length=0.23, equal="compression")
+    )
+    assert {link.radius for link in five.link_rods if link is not None} == {0.0}
+
+
 def test_pressure_does_work_on_link_pistons() -> None:
     cycle = cp.Cycle.example()
     engine = cp.Engine.radial(
@@ -210,6 +279,17 @@ def test_a_rod_with_a_big_end_brings_it_to_the_knuckle() -> None:
         (lambda: radial(radius=-1.0), "radius"),
         (lambda: radial(angles_deg=[72]), "angles_deg"),
         (lambda: radial(big_end_mass=np.nan), "big_end_mass"),
+        (cp.LinkRods, "radius"),
+        (lambda: cp.LinkRods(equal="stroke"), "radius"),
+        (lambda: cp.LinkRods(0.05, equal="compression"), "radius"),
+        (lambda: cp.LinkRods(0.05, angles_deg=[72] * 4, equal="stroke"), "angles_deg"),
+        (lambda: cp.LinkRods(0.05, equal="height"), "equal"),  # type: ignore[arg-type]
+        (lambda: radial(radius=None, length=0.24, equal="compression"), "length"),
+        # Where the master's offset makes its stroke longer, and the opposed link's at no angle.
+        (lambda: cp.Engine.vee(
+            [cp.Cylinder(0.06, 0.23, 1, 0.05), cp.Cylinder(0.06, 0.23, 1)], bank_angle_deg=180,
+            throws_deg=[0], spacing=0.1, rods=cp.LinkRods(0.0, 0.178, equal="stroke"),
+        ), 'equal = "stroke".* cylinder 2 the stroke of cylinder 1'),
         (lambda: cp.LinkRod(0, 0.05, 60), "master"),
         (lambda: radial().with_link_rods([None]), "rods"),
         (lambda: radial().with_link_rods([1] * 5), r"rods\[0\]"),  # type: ignore[list-item]
@@ -280,6 +360,94 @@ def test_many_link_rods_are_those_of_engines() -> None:
         cp.link_rod_harmonics(
             [0.3, 0.2], [2], master_ratio=[0.2] * 3, knuckle_ratio=0.8, bore_deg=60
         )
+
+
+def test_harmonics_beside_50_digits() -> None:
+    with TABLE.open(encoding="utf-8") as lines:
+        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(lines)]
+    assert len(rows) > 100
+    for row in rows:
+        n = int(row["order"])
+        arguments = {name: row[name] for name in ("master_ratio", "knuckle_ratio")}
+        rod = row["rod_ratio"]
+        value = cp.link_rod_harmonics(
+            rod, [n], bore_deg=row["bore_deg"], knuckle_deg=row["knuckle_deg"], **arguments
+        )[0]
+        exact = complex(row["re"], row["im"])
+        # The bound of the table: 1e-12 of the largest, which is about 1.
+        assert abs(value - exact) < 1e-12, row
+        engine = cp.Engine.from_lists(
+            [cp.Cylinder(1.0, 1 / row["master_ratio"], 0.0), cp.Cylinder(1.0, 1 / rod, 1.0)],
+            tdc_deg=[0, row["bore_deg"]], bank_deg=[0, row["bore_deg"]], z=[0, 0],
+        ).with_link_rods(
+            [None, cp.LinkRod(1, row["knuckle_ratio"], row["knuckle_deg"])]
+        )  # fmt: skip
+        turned = np.exp(1j * np.radians(row["bore_deg"]) * (1 - n))
+        forward = engine.balance(ONE_RADIAN, orders=[n])[n].force.forward
+        assert abs(2.0 * forward / turned - exact) < 1e-12, row
+        # Odd orders above the first keep their digits down to none.
+        is_small = n % 2 == 1 and n > 1 and row["knuckle_ratio"] > 0.1
+        if is_small and 0.0 < abs(row["knuckle_deg"] - row["bore_deg"]) < 1e-3:
+            assert abs(value - exact) < 1e-6 * abs(exact), row
+
+
+def limited(**figures: float) -> dict[int, complex]:
+    """Return harmonics of orders 1 to 6 of a usual link rod with some other figures."""
+    usual = {
+        "rod_ratio": 0.33, "master_ratio": 0.26, "knuckle_ratio": 0.87, "bore_deg": 72.0,
+        "knuckle_deg": 79.0,
+    } | figures  # fmt: skip
+    values = cp.link_rod_harmonics(usual.pop("rod_ratio"), range(1, 7), **usual)
+    return dict(enumerate(values.tolist(), start=1))
+
+
+def test_limits_of_knuckles() -> None:
+    plain = cp.slider_crank_harmonics(0.33, range(1, 7)).tolist()
+    # To the last digit on the crankpin, and smoothly towards it.
+    linked = cp.Engine.radial(
+        [cp.Cylinder(0.06, 0.23, 1)] + [cp.Cylinder(0.06, 0.178, 1)] * 4, 5, rods=cp.LinkRods(0.0)
+    )
+    alone = cp.Engine.radial([cp.Cylinder(0.06, 0.23, 1)] + [cp.Cylinder(0.06, 0.178, 1)] * 4, 5)
+    for quantity in ("force", "moment", "torque"):
+        assert np.array_equal(
+            linked.balance(3000, orders=range(1, 9)).read(quantity),
+            alone.balance(3000, orders=range(1, 9)).read(quantity),
+        )
+    for small in (1e-3, 1e-6, 1e-9, 1e-12):
+        near = limited(knuckle_ratio=small)
+        assert max(abs(near[n] - plain[n - 1]) for n in near) < 2 * small + 1e-13
+    # Odd orders fall in proportion to the angle between knuckle and bore, and are zero with it.
+    by = limited(knuckle_deg=73.0)[3] / np.sin(np.radians(1.0))
+    for angle in (1e-2, 1e-5, 1e-8, 1e-11):
+        turned = 72.0 + angle
+        third = limited(knuckle_deg=turned)[3]
+        assert third / np.sin(np.radians(turned - 72.0)) == pytest.approx(by, rel=2e-2)
+    assert limited(knuckle_deg=72.0)[3] == 0.0
+    assert limited(knuckle_deg=252.0)[3] == 0.0
+
+
+@pytest.mark.parametrize("part", [0.1, 1e-2, 1e-4, 1.1e-6])
+def test_a_link_barely_long_enough(part: float) -> None:
+    theta = 2.0 * np.pi * np.arange(2**16) / 2**16
+    lean = -np.arcsin(0.26 * np.sin(theta + np.radians(72.0)))
+    knuckle = np.exp(1j * theta) + 0.87 * np.exp(1j * (np.radians(7.0) + lean))
+    reach = np.abs(knuckle.imag).max()
+    rod = reach * (1 + part)
+    found = limited(rod_ratio=1.0 / rod)
+    heights = knuckle.real + np.sqrt((rod - knuckle.imag) * (rod + knuckle.imag))
+    sampled = 2.0 * np.fft.rfft(heights)[:7] / len(theta) * np.arange(7) ** 2
+    # The largest order is of size 1; at 1.1e-6 samples are still finer than the root's corner.
+    assert max(abs(found[n] - sampled[n]) for n in found) < 1e-11
+    with pytest.raises(InputError, match="too short for its knuckle"):
+        limited(rod_ratio=1.0 / (reach * (1 - 1e-9)))
+
+
+def test_masses_apart_by_little_leave_little() -> None:
+    for apart in (1e-12, 1e-9):
+        cylinders = [cp.Cylinder(0.06, 0.23, 1.0 + (k == 2) * apart) for k in range(5)]
+        engine = cp.Engine.radial(cylinders, 5, rods=cp.LinkRods(0.052, 0.178))
+        backward = turning(engine, 1)[1]
+        assert backward == pytest.approx(apart / 2, rel=1e-3 if apart < 1e-10 else 1e-6)
 
 
 @pytest.mark.parametrize("theta", [0.0, 33.0, 250.0])

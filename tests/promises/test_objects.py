@@ -131,9 +131,11 @@ def test_arrays_are_read_only(name: str) -> None:
         "InertiaTrack",
         "Mount",
         "RigidBody",
+        "ForceTable",
         "Powertrain",
         "Powertrain on a subframe",
         "Powertrain on a receptance",
+        "Soil",
         "Subframe",
         "Receptance",
         "PointMotion",
@@ -235,7 +237,7 @@ INPUTS = (
     cp.ValveTiming, cp.LinkRod, cp.LinkRods,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
-    cp.Locomotive,
+    cp.ForceTable, cp.Soil, cp.Locomotive,
 )  # fmt: skip
 
 
@@ -648,6 +650,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "Vanishing",
         "ClosedForm",
         "Ranking",
+        "ForceTable",
         "Powertrain",
         "StaticState",
         "MountModes",

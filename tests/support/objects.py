@@ -79,6 +79,9 @@ MOUNTED = cp.Powertrain(
         cp.Mount("left", (-0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=50, damping=200.0),
     ],
 )
+SHAKEN = MOUNTED.replace(
+    engine=None, forces=cp.ForceTable(900, {1: (0, 50, 0, 3j, 0, 0)}, name="table")
+)
 
 RAFT = cp.Subframe(MOUNTED.body, MOUNTED.mounts)
 PANEL = cp.Receptance(
@@ -242,6 +245,10 @@ OBJECTS = Made(
         "RigidBody": lambda: MOUNTED.body,
         "Powertrain": lambda: MOUNTED,
         "StaticState": lambda: MOUNTED.static(100.0),
+        "ForceTable": lambda: cp.force_table(ODD, 600.0, orders=[1, 2]),
+        "Soil": lambda: cp.Soil(6e7, 0.3),
+        "Powertrain of forces": lambda: SHAKEN,
+        "MountResponse of forces": lambda: SHAKEN.response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),
         "RollAxes": lambda: MOUNTED.axes(20.0),
         "MountResponse": lambda: MOUNTED.response([900.0, 3000.0], orders=[1, 2]),
@@ -304,7 +311,7 @@ OBJECTS = Made(
 
 UNTABLED = {
     "Cylinder", "LinkRod", "LinkRods", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming",
-    "InertiaTrack",
+    "InertiaTrack", "Soil",
     "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip

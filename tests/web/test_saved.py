@@ -238,12 +238,14 @@ def test_a_file_keeps_its_body_and_hardware(open_workbench: Open, tmp_path: Path
     assert save(page, tmp_path) is not None
     saved = cp.Powertrain.load(tmp_path / "saved.toml")
     assert (saved.body, saved.mounts) == (car.body, car.mounts)
+    assert saved.engine is not None
     assert saved.engine.fired
     choose(page, kind="inline")
     type_in(page, throws_deg="0, 240, 120", firing_order="1-3-2")
     assert faults(page) == []
     saved = cp.Powertrain.load(tmp_path / "saved.toml") if save(page, tmp_path) else saved
     assert saved.mounts == car.mounts
+    assert saved.engine is not None
     assert saved.engine.counterweights[:2] == own_engine().counterweights
 
 

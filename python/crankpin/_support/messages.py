@@ -131,8 +131,9 @@ def warn(about: str, fault: str, hint: str = "") -> None:
 
 def warn_of_core(entries: Sequence[tuple[str, str, Sequence[tuple[str, str | None]]]]) -> None:
     """Warn of what the core reports, of each by itself."""
-    for entry in of_core(entries):
-        warn_of([entry])
+    if entries:
+        for entry in of_core(entries):
+            warn_of([entry])
 
 
 def of_core(entries: Sequence[tuple[str, str, Sequence[tuple[str, str | None]]]]) -> list[Entry]:

@@ -160,7 +160,8 @@ class Labelled(Tabled):
         of: Any = self
         for name in ("result", "before", "powertrain"):
             of = getattr(of, name, of)
-        return (of.engine,) if hasattr(of, "engine") else ()
+        engine = getattr(of, "engine", None)  # a table of forces may take its place
+        return () if engine is None else (engine,)
 
     def _sense_of_phases(self) -> str:
         """Return sign and reference of the phases, in words."""

@@ -93,10 +93,12 @@ def _rods(call: Given, flag: str) -> LinkRods:
     parts = call.text(flag).split(":")
     if not 2 <= len(parts) <= 4:
         raise rejected(flag, call.text(flag), f"give {RODS}, such as 52mm:178mm:400g")
-    radius, length = (call.one(flag, part, "m") for part in parts[:2])
-    mass = call.one(flag, parts[2], "kg") if len(parts) > 2 else None
-    angles = parts[3].split(",") if len(parts) > 3 else "bores"
-    return LinkRods(radius, length, angles, mass)
+    radius, length = (call.one(flag, part, "m") if part else None for part in parts[:2])
+    mass = call.one(flag, parts[2], "kg") if len(parts) > 2 and parts[2] else None
+    last = parts[3] if len(parts) > 3 else ""
+    equal = last.removeprefix("equal-") if last.startswith("equal-") else None
+    angles = last.split(",") if last and equal is None else "bores"
+    return LinkRods(radius, length, angles, mass, equal)  # type: ignore[arg-type]
 
 
 def _masters(call: Given, flag: str) -> str | list[int]:
@@ -106,7 +108,7 @@ def _masters(call: Given, flag: str) -> str | list[int]:
     return [int(number) for number in numbers] if all(map(str.isdecimal, numbers)) else text
 
 
-RODS = "RADIUS:LENGTH[:MASS[:ANGLE,…]]"
+RODS = "[RADIUS]:LENGTH[:MASS[:ANGLE,…|equal-stroke|equal-compression]]"
 
 LAYOUT = {
     shape.label: shape

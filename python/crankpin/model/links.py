@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.messages import Hint
 from crankpin._support.record import Input
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 Masters: TypeAlias = "int | str | Sequence[int]"
 """Number of the cylinder of a master rod, several, or the name of their bank."""
+
+EQUAL = ("stroke", "compression")
+"""What knuckles are solved for."""
 
 RODS = "give crankpin.LinkRods, or a crankpin.LinkRod or None for each cylinder"
 
@@ -78,8 +82,8 @@ class LinkRods(Input):
 
     Parameters
     ----------
-    radius : float
-        Distance of the knuckle pins from the crankpin, m.
+    radius : float, optional
+        Distance of the knuckle pins from the crankpin, m; left out where it is solved for.
     length : float, optional
         Length of the link rods between their centres, m; by default the rod length of their
         cylinders.
@@ -88,11 +92,16 @@ class LinkRods(Input):
         link rod in the order of the cylinders' numbers; ``"bores"`` are those between the bores.
     big_end_mass : float, optional
         Mass of each link rod at its knuckle, kg; by default the big end of the cylinder's ``rod``.
+    equal : {"stroke", "compression"}, optional
+        What is equal in all cylinders of a crankpin, with knuckles solved for near their bores:
+        ``"stroke"`` by their angles, at the ``radius`` given; ``"compression"``, stroke and height
+        above the crank, hence the compression ratio below heads equally far from it, by angles and
+        radii, at the ``length`` given.
 
     Raises
     ------
     InputError
-        If a figure is not finite or below zero.
+        If a figure is not finite or below zero, is missing, or is solved for and given.
 
     Examples
     --------
@@ -107,19 +116,33 @@ class LinkRods(Input):
     0.1598
     """
 
-    radius: float
+    radius: float | None
     length: float | None
     angles_deg: Literal["bores"] | tuple[str, ...]
     big_end_mass: float | None
+    equal: Literal["stroke", "compression"] | None
 
     def __init__(
         self,
-        radius: float,
+        radius: float | None = None,
         length: float | None = None,
         angles_deg: Literal["bores"] | Angles = "bores",
         big_end_mass: float | None = None,
+        equal: Literal["stroke", "compression"] | None = None,
     ) -> None:
-        object.__setattr__(self, "radius", _not_negative("radius", radius))
+        chosen = None if equal is None else inputs.one_of("equal", equal, EQUAL)
+        object.__setattr__(self, "equal", chosen)
+        is_solved = chosen == "compression"
+        if radius is None and not is_solved:
+            hint = (
+                'give the distance of the knuckles from the crankpin, m, or `equal="compression"`'
+            )
+            raise inputs.rejected("radius", radius, Hint.of(hint))
+        solved = Hint.of("is solved for with `equal`; leave it out")
+        if radius is not None and is_solved:
+            raise inputs.rejected("radius", radius, solved)
+        knuckle = None if radius is None else _not_negative("radius", radius)
+        object.__setattr__(self, "radius", knuckle)
         rod = None if length is None else inputs.positive("length", length)
         object.__setattr__(self, "length", rod)
         is_named = isinstance(angles_deg, str)
@@ -128,6 +151,8 @@ class LinkRods(Input):
             if is_named
             else tuple(inputs.angles("angles_deg", angles_deg))
         )
+        if chosen is not None and angles != "bores":
+            raise inputs.rejected("angles_deg", angles_deg, solved)
         object.__setattr__(self, "angles_deg", angles)
         mass = None if big_end_mass is None else _not_negative("big_end_mass", big_end_mass)
         object.__setattr__(self, "big_end_mass", mass)
@@ -256,5 +281,6 @@ def with_masters(
         rods.length,
         None if rods.angles_deg == "bores" else list(rods.angles_deg),
         rods.big_end_mass,
+        rods.equal,
         None if numbers is None else [number - 1 for number in numbers],
     )

@@ -20,6 +20,10 @@ Vector: TypeAlias = tuple[float, float, float]
 Rows: TypeAlias = tuple[Vector, Vector, Vector]
 
 THREE = "give three numbers"
+SIDES = (1e-3, 1e3)
+"""Least and largest side of a block, m."""
+DENSITIES = (1.0, 1e5)
+"""Least and largest density of a block, kg/m³."""
 
 
 class RigidBody(Input):
@@ -90,6 +94,101 @@ class RigidBody(Input):
         }
         self.__dict__.update(fields)
         checks.body(self._figures)
+
+    @classmethod
+    def block(
+        cls,
+        width: float,
+        height: float,
+        length: float,
+        density: float = 2400.0,
+        top: ArrayLike = (0.0, 0.0, 0.0),
+    ) -> RigidBody:
+        """Return a cuboid of one density, such as a block of concrete.
+
+        Parameters
+        ----------
+        width : float
+            Side along x, m.
+        height : float
+            Side along y, m.
+        length : float
+            Side along z, along the crank, m.
+        density : float, default 2400.0
+            Density, kg/m³: 2400 of concrete.
+        top : sequence of float, default (0.0, 0.0, 0.0)
+            Middle of its top face in the engine's axes, m.
+
+        Returns
+        -------
+        RigidBody
+            The block.
+
+        Raises
+        ------
+        InputError
+            If a figure is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> block = cp.RigidBody.block(width=4, height=2.5, length=9, top=(0, -0.8, 0))
+        >>> block.mass, block.cg
+        (216000.0, (0.0, -2.05, 0.0))
+        """
+        x, y, z = _vector("top", top)
+        sides = (
+            inputs.positive("width", width),
+            inputs.positive("height", height),
+            inputs.positive("length", length),
+        )
+        for name, side in zip(("width", "height", "length"), sides, strict=True):
+            if not SIDES[0] <= side <= SIDES[1]:
+                raise inputs.rejected(name, side, f"give metres, {SIDES[0]:g} to {SIDES[1]:g}")
+        heavy = inputs.number("density", density)
+        if not DENSITIES[0] <= heavy <= DENSITIES[1]:
+            hint = f"give kg/m³, {DENSITIES[0]:g} to {DENSITIES[1]:g}: 2400 of concrete"
+            raise inputs.rejected("density", density, hint)
+        centre = (x, y - 0.5 * sides[1], z)
+        return cls._of(_core.block(sides, centre, heavy))
+
+    @classmethod
+    def combined(cls, *bodies: RigidBody) -> RigidBody:
+        """Return several bodies that move as one, such as a machine on a block.
+
+        Parameters
+        ----------
+        *bodies : RigidBody, optional
+            The bodies, in the engine's axes.
+
+        Returns
+        -------
+        RigidBody
+            Their mass, centre of gravity and tensor.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> block = cp.RigidBody.block(width=4, height=2.5, length=9, top=(0, -0.8, 0))
+        >>> machine = cp.RigidBody(mass=54e3, cg=(0, 0.4, 0), inertia=(2.5e5, 2.2e5, 4e4))
+        >>> round(cp.RigidBody.combined(block, machine).cg[1], 9)
+        -1.56
+        """
+        for k, body in enumerate(bodies):
+            if not isinstance(body, RigidBody):
+                raise inputs.rejected(f"bodies[{k}]", body, "give a crankpin.RigidBody")
+        return cls._of(_core.combined([body._figures for body in bodies]))
+
+    @classmethod
+    def _of(cls, figures: Any) -> RigidBody:  # noqa: ANN401 - as the core gives them
+        """Return a body of the core."""
+        mass, cg, inertia = figures
+        return cls(mass, cg, inertia, products="tensor")
 
     @property
     def principal_moments(self) -> Vector:
@@ -169,6 +268,13 @@ class Mount(Input):
         Frequencies, Hz, and the complex dynamic stiffness along the three axes at each of them,
         N/m: of shapes (n_frequencies,) and (n_frequencies, 3), in place of ``dynamic_stiffness``,
         ``loss_factor``, ``damping`` and ``track``. It is interpolated, never extrapolated.
+    rotational_stiffness : float or sequence of float, default 0.0
+        Stiffness about the first, second and third axis, N·m/rad, of a bushing or of soil under a
+        base, besides what the places of mounts make; at rest and in motion.
+    rotational_loss_factor : float or sequence of float, default 0.0
+        Imaginary over real part of that in motion.
+    rotational_damping : float or sequence of float, default 0.0
+        Viscous damping about the axes, N·m·s/rad.
 
     Raises
     ------
@@ -199,6 +305,9 @@ class Mount(Input):
     damping: Vector
     track: InertiaTrack | None
     table: tuple[tuple[float, ...], tuple[tuple[complex, ...], ...]] | None
+    rotational_stiffness: Vector
+    rotational_loss_factor: Vector
+    rotational_damping: Vector
 
     def __init__(
         self,
@@ -212,6 +321,9 @@ class Mount(Input):
         damping: ArrayLike = 0.0,
         track: InertiaTrack | None = None,
         table: tuple[ArrayLike, ArrayLike] | None = None,
+        rotational_stiffness: ArrayLike = 0.0,
+        rotational_loss_factor: ArrayLike = 0.0,
+        rotational_damping: ArrayLike = 0.0,
     ) -> None:
         fields: dict[str, Any] = {"name": inputs.text("name", name), "at": _vector("at", at)}
         of_axes = {
@@ -219,6 +331,9 @@ class Mount(Input):
             "dynamic_stiffness": dynamic_stiffness,
             "loss_factor": loss_factor,
             "damping": damping,
+            "rotational_stiffness": rotational_stiffness,
+            "rotational_loss_factor": rotational_loss_factor,
+            "rotational_damping": rotational_damping,
         }
         for field, value in of_axes.items():
             is_left_out = value is None and field == "dynamic_stiffness"
@@ -255,6 +370,7 @@ class Mount(Input):
             self.damping,
             None if track is None else (track.stiffness, track.frequency, track.damping_ratio),
             self.table,
+            (self.rotational_stiffness, self.rotational_loss_factor, self.rotational_damping),
         )
 
     def _warn(self) -> None:
@@ -264,7 +380,7 @@ class Mount(Input):
     @classmethod
     def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them
         """Return a mount of the core."""
-        name, at, direction, stiffness, dynamic, loss, damping, track, table = figures
+        name, at, direction, stiffness, dynamic, loss, damping, track, table, about = figures
         is_tilt = isinstance(direction, float)
         with suppressed():  # Warned of where it was given.
             return cls(
@@ -278,6 +394,9 @@ class Mount(Input):
                 damping=damping,
                 track=None if track is None else InertiaTrack(*track),
                 table=table,
+                rotational_stiffness=about[0],
+                rotational_loss_factor=about[1],
+                rotational_damping=about[2],
             )
 
     def dynamic_at(self, frequency: float) -> NDArray[np.complex128]:

@@ -453,7 +453,7 @@ class Traces(Tabled, Input):
         >>> theta = np.arange(-360.0, 360.0, 0.5)
         >>> traces = cp.Traces(theta, cycle.pressure_at(theta)[None])
         >>> traces.heat_release(cylinder, [-60, 0, 60], compression_ratio=10).round(-1)
-        array([[  -0.,  260., 1000.]])
+        array([[   0.,  170., 1000.]])
         """
         area(cylinder)
         theta = inputs.finite_array("theta_deg", theta_deg)

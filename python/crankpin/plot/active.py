@@ -40,7 +40,7 @@ def _cancellation(result: Cancellation, ax: Axes | None = None, **style: object)
     names = [name for name, *_ in places]
     orders = labels.orders_text(result.orders)
     at = "" if result.before.dims else f" {labels.at_speed(float(result.before.rpm))}"
-    set_title(ax, labels.name_of(result.before.powertrain.engine), f"{orders} cancelled{at}")
+    set_title(ax, labels.name_of(result.before.powertrain), f"{orders} cancelled{at}")
     line: dict[str, Any] = {"color": muted(ax), "linewidth": 1.0, "linestyle": "--", "gid": ""}
     if result.before.dims:
         speeds = np.asarray(result.before.rpm)

@@ -67,9 +67,7 @@ def _design(result: MountDesign, ax: Axes | None = None, **style: object) -> Axe
     merits = zip(result.names, result.before, result.after, result.limits, strict=True)
     changes = [f"{n} {rounded(a)} → {rounded(b)}" for n, a, b, limit in merits if limit is None]
     missed = "" if result.reached else "requirements not reached"
-    set_title(
-        ax, labels.name_of(result.powertrain.engine), joined("mounts designed", missed), *changes
-    )
+    set_title(ax, labels.name_of(result.powertrain), joined("mounts designed", missed), *changes)
     add_legend(ax, last="modes between")
     return ax
 
@@ -140,7 +138,7 @@ def _designs(
     which = "all orders" if wanted is None else f"order {wanted}"
     set_title(
         ax,
-        labels.name_of(result.powertrain.engine),
+        labels.name_of(result.powertrain),
         joined(words, which, result.loads_counted),
         "" if design is not None else f"design {chosen} has the least rms force on the body",
     )
@@ -224,7 +222,7 @@ def _robustness(result: MountRobustness, ax: Axes | None = None, **style: object
     ends = [high for _, (_, high) in causes] or [result.frequency]
     x_axis(ax, "natural frequency, Hz", largest=float(np.max(ends)))
     label_y(ax, "purity → least found")
-    name = labels.name_of(result.powertrain.engine)
+    name = labels.name_of(result.powertrain)
     on, _, title = units.shown(result.table.title).removeprefix(name).strip().partition(": ")
     set_title(ax, name, joined(on, title))
     add_legend(ax, last="nominal")
@@ -266,7 +264,7 @@ def _axes(
     distance = units.shown(units.figure(1e3 * result.distance, "mm", 3))
     words = f"{rounded(result.angle_deg)}° and {distance} between the axes"
     words += " at rest" if is_dynamic else ""
-    panels.set_title(labels.name_of(powertrain.engine), joined("axes of roll", words))
+    panels.set_title(labels.name_of(powertrain), joined("axes of roll", words))
     _views(panels, powertrain, lines, corners, style)
     return panels.drawn
 
@@ -286,7 +284,7 @@ def _powertrain(
     """
     panels = make_panels(ax, figure, 3, 1, row_height=0.6)
     _views(panels, result, [], [], {}, style)
-    panels.set_title(labels.name_of(result.engine), "engine on its mounts")
+    panels.set_title(labels.name_of(result), "engine on its mounts")
     return panels.drawn
 
 

@@ -94,7 +94,7 @@ def _modes(result: MountModes, ax: Axes | None = None, **style: object) -> Axes:
     ax.spines[:].set_visible(False)
     hatched = "hatched: below zero" if ax.patches else ""
     what = "kinetic energy of each mode φₖ(Mφ)ₖ, %"
-    set_title(ax, labels.name_of(result.powertrain.engine), joined(what, hatched))
+    set_title(ax, labels.name_of(result.powertrain), joined(what, hatched))
     return ax
 
 
@@ -230,10 +230,7 @@ def _picture(
     notes = kinds[chosen](ax, drawn._replace(orders=tuple(chosen_orders)), label, style)
     speed = "" if several else f"{number(float(result.rpm))} rpm"
     set_title(
-        ax,
-        labels.name_of(result.powertrain.engine),
-        joined(words, speed, result.loads_counted),
-        notes,
+        ax, labels.name_of(result.powertrain), joined(words, speed, result.loads_counted), notes
     )
     return ax
 

@@ -46,7 +46,14 @@ def figures(
     """
     at = speed(rpm)
     powertrain._core.require_ground()
-    engine = powertrain.engine
+    engine = powertrain._require_engine("powertrain")
+    if powertrain.forces:
+        hint = "a page has the loads of an engine: leave tables of forces out"
+        raise inputs.rejected("forces", powertrain.forces[0].title, hint)
+    for mount in powertrain.mounts:
+        if any((*mount.rotational_stiffness, *mount.rotational_damping)):
+            hint = "a page has mounts that resist no rotation by themselves"
+            raise inputs.faulty(f"rotational_stiffness of mount {mount.name!r}", "is given", hint)
     inputs.warn_of_units(mean_piston_speed(engine, at))
     modes = powertrain.modes(frequency)
     return {
@@ -87,7 +94,7 @@ def largest_order(powertrain: Powertrain, rpm: float) -> Order | str:
     """Return the order of the largest force on the body, or ``"all"`` where there is no answer."""
     largest: Order | str = "all"
     most = 0.0
-    for order in powertrain.engine.balance(labels.UNIT_RPM).orders:
+    for order in powertrain._require_engine("powertrain").balance(labels.UNIT_RPM).orders:
         try:
             with suppressed():  # The page says which motions are free.
                 force = powertrain.response(rpm, orders=[order])[order].body_force.rms
@@ -179,7 +186,7 @@ def _mass(powertrain: Powertrain) -> dict[str, Any]:
 
 def _engine_loads(powertrain: Powertrain) -> dict[str, Any]:
     """Return the load of each order about the CG: over the square of speed, and at any speed."""
-    engine = powertrain.engine
+    engine = powertrain._require_engine("powertrain")
     tables = [each.name for each in engine.loads if isinstance(each.rpm, tuple)]
     if tables:
         hint = "a page has loads at any speed: give it amplitudes of one, or leave it out"

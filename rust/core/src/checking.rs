@@ -747,8 +747,9 @@ impl<'a> Case<'a> {
         let powertrain =
             Arc::new(Powertrain::new(body, mounts.into_iter().collect::<Result<_>>()?)?);
         let given = Orders::Given(orders.clone());
-        let of =
-            |engine| Response::new(engine, Arc::clone(&powertrain), &SPEEDS, &given, &self.cancel);
+        let of = |engine: &Arc<Engine>| {
+            Response::new(&**engine, Arc::clone(&powertrain), &SPEEDS, &given, &self.cancel)
+        };
         let (with, bare) = (of(&self.with)?, of(&self.bare)?);
         for (row, (with, bare)) in with.loads().iter().zip(bare.loads()).enumerate() {
             let (rpm, order) = (SPEEDS[row / orders.len()], orders[row % orders.len()]);

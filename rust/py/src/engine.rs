@@ -8,7 +8,7 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::radial::Radial;
 use crankpin_core::engine::{
-    Crank, CrankEnd, CrankIndex, Details, EngineOnCrank, Gas, Hold, LinkRod, LinkRods,
+    Crank, CrankEnd, CrankIndex, Details, EngineOnCrank, EqualTravel, Gas, Hold, LinkRod, LinkRods,
     PeriodicLoad, RodFigures, Shaft, Station, Unbalance, file,
 };
 use crankpin_core::index::ListIndex;
@@ -627,13 +627,15 @@ impl Engine {
     /// With master rods in some cylinders, and link rods in those beside them.
     fn with_master_rods(
         &self,
-        radius: f64,
+        radius: Option<f64>,
         length: Option<f64>,
         angles_deg: Option<Vec<Angle>>,
         big_end_mass: Option<f64>,
+        equal: Option<&str>,
         masters: Option<Vec<usize>>,
     ) -> PyResult<Self> {
-        let rods = LinkRods { radius, length, angles: angles_deg.map(angles), big_end_mass };
+        let (angles, equal) = (angles_deg.map(angles), equal.and_then(EqualTravel::named));
+        let rods = LinkRods { radius, length, angles, big_end_mass, equal };
         self.0.with_master_rods(&rods, masters.as_deref()).or_raise().map(Self::from)
     }
 
@@ -883,7 +885,7 @@ impl Engine {
     }
 }
 
-fn unreadable(error: &serde_json::Error) -> PyErr {
+pub fn unreadable(error: &serde_json::Error) -> PyErr {
     python_error(Error::value("loads", error, "give a list of crankpin.PeriodicLoad"))
 }
 

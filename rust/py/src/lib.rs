@@ -62,9 +62,9 @@ mod _core {
         },
         matching::MeasuredParts,
         mounts::{
-            AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, check_mount,
-            check_support, least_share, motor_shares, mount_stiffness, peaks_of_vectors,
-            rigid_body,
+            AdaptiveLaw, MountObjectives, Powertrain, Response, actuator_phasors, block,
+            check_forces, check_mount, check_soil, check_support, combined, force_table,
+            least_share, motor_shares, mount_stiffness, peaks_of_vectors, rigid_body, soil_mount,
         },
         pressure::{
             Cycle, compression_peak, crank_clock, cubics, fires_a_turn_later, heat_release,

@@ -12,7 +12,8 @@ use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design
 use crankpin_core::mount_objectives::{self, MountObjective, MountVariable};
 use crankpin_core::mounted::{ActuatorForces, Derivative};
 use crankpin_core::mounts::{
-    self, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Table,
+    self, Base, ForceTable, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance,
+    RigidBody, Soil, Table,
 };
 use crankpin_core::peaks::largest_vectors;
 use crankpin_core::{Complex64, memory};
@@ -31,7 +32,8 @@ use crate::interrupt;
 pub type Body = (f64, [f64; 3], [[f64; 3]; 3]);
 /// Frequencies, and complex stiffnesses along the three axes at them.
 pub type StiffnessTable = (Vec<f64>, Vec<[Complex64; 3]>);
-/// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table.
+/// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table; about the axes
+/// stiffness, loss factor and damping.
 pub type Figures = (
     String,
     [f64; 3],
@@ -42,6 +44,7 @@ pub type Figures = (
     [f64; 3],
     Option<(f64, f64, f64)>,
     Option<StiffnessTable>,
+    [[f64; 3]; 3],
 );
 /// Name, and at each frequency the displacement over the force at each coordinate.
 type Transfer = (String, Vec<Vec<[Complex64; 3]>>);
@@ -120,7 +123,7 @@ impl Support {
     fn of(support: &mounts::Support) -> Self {
         match support {
             mounts::Support::Subframe(subframe) => {
-                Self::Subframe(body_figures(subframe), mount_figures(subframe))
+                Self::Subframe(body_figures(subframe.body()), mount_figures(subframe))
             }
             mounts::Support::Receptance(found) => {
                 let found = found.clone();
@@ -139,30 +142,31 @@ pub fn check_support(support: Support) -> PyResult<()> {
     support.core().or_raise().map(drop)
 }
 
-fn body_figures(powertrain: &mounts::Powertrain) -> Body {
-    let (body, tensor) = (powertrain.body(), powertrain.body().inertia());
+fn body_figures(body: &RigidBody) -> Body {
+    let tensor = body.inertia();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
     (body.mass(), body.cg().into(), rows)
 }
 
 fn mount_figures(powertrain: &mounts::Powertrain) -> Vec<Figures> {
-    let figures = |mount: &Mount| {
-        let each = mount.figures().clone();
-        let orientation = each.axes.map_or(Orientation::Tilt(each.tilt_deg), Orientation::Axes);
-        let track = each.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
-        (
-            each.name,
-            each.at,
-            orientation,
-            each.stiffness,
-            each.dynamic_stiffness,
-            each.loss_factor,
-            each.damping,
-            track,
-            each.table.map(|table| (table.frequency, table.stiffness)),
-        )
-    };
-    powertrain.mounts().iter().map(figures).collect()
+    powertrain.mounts().iter().map(|mount| figures(mount.figures().clone())).collect()
+}
+
+fn figures(of: MountFigures) -> Figures {
+    let orientation = of.axes.map_or(Orientation::Tilt(of.tilt_deg), Orientation::Axes);
+    let track = of.track.map(|t| (t.stiffness, t.frequency, t.damping_ratio));
+    (
+        of.name,
+        of.at,
+        orientation,
+        of.stiffness,
+        of.dynamic_stiffness,
+        of.loss_factor,
+        of.damping,
+        track,
+        of.table.map(|table| (table.frequency, table.stiffness)),
+        [of.rotational_stiffness, of.rotational_loss_factor, of.rotational_damping],
+    )
 }
 
 /// A place, m, or the name of a receiver.
@@ -180,8 +184,10 @@ pub fn body((mass, cg, inertia): Body) -> core::Result<RigidBody> {
 }
 
 pub fn mount(figures: Figures) -> core::Result<Mount> {
-    let (name, at, orientation, stiffness, dynamic_stiffness, loss_factor, damping, track, table) =
+    let (name, at, orientation, stiffness, dynamic_stiffness, loss_factor, damping, track, ..) =
         figures;
+    let (.., table, about) = figures;
+    let [rotational_stiffness, rotational_loss_factor, rotational_damping] = about;
     let track = track.map(|(stiffness, frequency, damping_ratio)| InertiaTrack {
         stiffness,
         frequency,
@@ -202,6 +208,9 @@ pub fn mount(figures: Figures) -> core::Result<Mount> {
         damping,
         track,
         table: table.map(|(frequency, stiffness)| Table { frequency, stiffness }),
+        rotational_stiffness,
+        rotational_loss_factor,
+        rotational_damping,
     })
 }
 
@@ -219,6 +228,54 @@ pub fn rigid_body(
     let tensor = body.inertia();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| tensor[(row, column)]));
     Ok((rows, body.principal_moments()))
+}
+
+/// A cuboid of one density about its centre, and several bodies as one.
+#[guarded]
+#[pyfunction]
+pub fn block(sides: [f64; 3], centre: [f64; 3], density: f64) -> PyResult<Body> {
+    RigidBody::block(sides, centre, density).or_raise().map(|body| body_figures(&body))
+}
+
+/// Several bodies as one.
+#[guarded]
+#[pyfunction]
+pub fn combined(bodies: Vec<Body>) -> PyResult<Body> {
+    let bodies = bodies.into_iter().map(body).collect::<core::Result<Vec<_>>>().or_raise()?;
+    RigidBody::combined(&bodies).or_raise().map(|body| body_figures(&body))
+}
+
+/// Shear modulus, Poisson's ratio, density and damping ratio.
+type SoilFigures = (f64, f64, f64, f64);
+
+fn soil((shear_modulus, poisson, density, damping_ratio): SoilFigures) -> Soil {
+    Soil { shear_modulus, poisson, density, damping_ratio }
+}
+
+/// Rejects what no soil has.
+#[guarded]
+#[pyfunction]
+pub fn check_soil(figures: SoilFigures) -> PyResult<()> {
+    soil(figures).check().or_raise()
+}
+
+/// The soil under a base of a radius, or of sides along x and z, as a mount: name, place, depth and body.
+#[guarded]
+#[pyfunction]
+pub fn soil_mount(
+    figures: SoilFigures,
+    base: Vec<f64>,
+    name: String,
+    at: [f64; 3],
+    depth: f64,
+    on: Body,
+) -> PyResult<Figures> {
+    let base = match base[..] {
+        [width, length] => Base::Rectangle([width, length]),
+        _ => Base::Circle(base.first().copied().unwrap_or(f64::NAN)),
+    };
+    let on = body(on).or_raise()?;
+    soil(figures).mount(name, base, at, depth, &on).or_raise().map(self::figures)
 }
 
 /// Checks the figures of a mount.
@@ -248,6 +305,47 @@ fn rows<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Bound<'py, PyArray2
     frozen(py, Array2::from_shape_fn(shape, |(row, column)| rows[row][column]))
 }
 
+/// The engine of a powertrain that has one.
+fn core_of<'a>(engine: Option<&'a Bound<'_, Engine>>) -> Option<&'a core::Engine> {
+    engine.map(|engine| &*engine.get().0)
+}
+
+fn unreadable(error: serde_json::Error) -> PyErr {
+    convert::python_error(core::Error::value("forces", error, "give crankpin.ForceTable"))
+}
+
+/// Tables of forces of JSON.
+fn tables(text: &str) -> PyResult<Vec<ForceTable>> {
+    serde_json::from_str(text).map_err(unreadable)
+}
+
+/// Checks a table of forces, as JSON.
+#[guarded]
+#[pyfunction]
+pub fn check_forces(text: &str) -> PyResult<()> {
+    for table in tables(text)? {
+        table.checked("").or_raise()?;
+    }
+    Ok(())
+}
+
+/// Forces and moments of an engine about a point at a speed, a table as JSON.
+#[guarded]
+#[pyfunction]
+pub fn force_table<'py>(
+    py: Python<'py>,
+    engine: &Bound<'_, Engine>,
+    rpm: f64,
+    orders: Option<Vec<OrderNumber>>,
+    about: [f64; 3],
+) -> PyResult<Bound<'py, PyAny>> {
+    let (engine, orders) = (&engine.get().0, balance::orders(orders, 1e-9)?);
+    let found = interrupt::run(py, |cancel| {
+        core::mounted::force_table(engine, rpm, &orders, about, cancel)
+    })?;
+    boundary::text(py, &serde_json::to_string(&found).map_err(unreadable)?)
+}
+
 /// A body on mounts.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Powertrain(Arc<mounts::Powertrain>);
@@ -256,38 +354,53 @@ pub struct Powertrain(Arc<mounts::Powertrain>);
 #[pymethods]
 impl Powertrain {
     #[new]
-    fn new(body: Body, mounts: Vec<Figures>, support: Option<Support>) -> PyResult<Self> {
+    #[pyo3(signature = (body, mounts, support, forces=None))]
+    fn new(
+        body: Body,
+        mounts: Vec<Figures>,
+        support: Option<Support>,
+        forces: Option<&str>,
+    ) -> PyResult<Self> {
         let mounts = mounts.into_iter().map(mount).collect::<core::Result<_>>().or_raise()?;
         let mut powertrain =
             mounts::Powertrain::new(self::body(body).or_raise()?, mounts).or_raise()?;
         if let Some(support) = support {
             powertrain = support.core().and_then(|core| powertrain.on(core)).or_raise()?;
         }
+        if let Some(text) = forces {
+            powertrain = powertrain.with_forces(tables(text)?).or_raise()?;
+        }
         Ok(Self(Arc::new(powertrain)))
     }
 
-    /// Engine and body on mounts of a file, or no body.
+    /// Tables of forces that shake the body besides an engine, as JSON.
+    #[getter]
+    fn forces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        boundary::text(py, &serde_json::to_string(self.0.forces()).map_err(unreadable)?)
+    }
+
+    /// Engine and body on mounts of a file, or one of them.
     #[staticmethod]
-    fn from_text(text: &str, toml: bool) -> PyResult<(Engine, Option<Self>)> {
+    fn from_text(text: &str, toml: bool) -> PyResult<(Option<Engine>, Option<Self>)> {
         let read = if toml { file::mounted_from_toml } else { file::mounted_from_json };
         let (engine, powertrain) = read(text).or_raise()?;
-        Ok((engine.into(), powertrain.map(|powertrain| Self(Arc::new(powertrain)))))
+        Ok((engine.map(Engine::from), powertrain.map(|powertrain| Self(Arc::new(powertrain)))))
     }
 
     /// Text of a file of an engine and this.
     fn to_text<'py>(
         &self,
         py: Python<'py>,
-        engine: &Bound<'_, Engine>,
+        engine: Option<&Bound<'_, Engine>>,
         toml: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let write = if toml { file::mounted_to_toml } else { file::mounted_to_json };
-        boundary::text(py, &write(&engine.get().0, Some(&self.0)).or_raise()?)
+        boundary::text(py, &write(core_of(engine), Some(&self.0)).or_raise()?)
     }
 
     #[getter]
     fn body(&self) -> Body {
-        body_figures(&self.0)
+        body_figures(self.0.body())
     }
 
     #[getter]
@@ -340,9 +453,10 @@ impl Powertrain {
 
     /// Deflection of each mount along its axes, of displacement of the CG and rotation: (`n_mounts`, 3, 6).
     fn deflections<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let rows = self.0.deflections().iter().flat_map(|each| each.transpose().data.0);
+        let count = self.0.mounts().len();
+        let rows = self.0.deflections()[..count].iter().flat_map(|each| each.transpose().data.0);
         let numbers = rows.flatten().collect();
-        let shape = [self.0.mounts().len(), 3, 6];
+        let shape = [count, 3, 6];
         frozen(py, memory::array("deflections", shape.to_vec(), numbers).or_raise()?)
     }
 
@@ -451,7 +565,7 @@ impl Powertrain {
     fn designs<'py>(
         &self,
         py: Python<'py>,
-        engine: &Bound<'_, Engine>,
+        engine: Option<&Bound<'_, Engine>>,
         vary: Vec<(usize, String, PyReadonlyArray2<'_, f64>)>,
         rpm: PyReadonlyArray1<'_, f64>,
         orders: (Option<Vec<OrderNumber>>, f64),
@@ -477,7 +591,7 @@ impl Powertrain {
         let (mount_forces, points) = quantities;
         let request =
             DesignRequest { rpm, orders: &orders, mount_forces, points: &points, frequency };
-        let engine = &engine.get().0;
+        let engine = core_of(engine);
         let found = interrupt::run(py, |cancel| {
             design_responses(engine, &self.0, &variations, &request, cancel)
         })?;
@@ -502,14 +616,14 @@ impl Powertrain {
     fn response(
         &self,
         py: Python<'_>,
-        engine: &Bound<'_, Engine>,
+        engine: Option<&Bound<'_, Engine>>,
         rpm: PyReadonlyArray1<'_, f64>,
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         drive: Option<PyDrive<'_>>,
     ) -> PyResult<Response> {
         let (orders, rpm) = (balance::orders(orders, rtol)?, rpm.as_slice()?);
-        let (engine, powertrain) = (&engine.get().0, Arc::clone(&self.0));
+        let (engine, powertrain) = (core_of(engine), Arc::clone(&self.0));
         let found = if let Some((actuators, forces, engine_runs)) = &drive {
             let (forces, engine_runs) = (forces.as_slice()?, *engine_runs);
             let drive = ActuatorForces { actuators, forces, engine_runs };
@@ -797,7 +911,7 @@ impl MountObjectives {
     #[new]
     fn new(
         powertrain: &Bound<'_, Powertrain>,
-        engine: &Bound<'_, Engine>,
+        engine: Option<&Bound<'_, Engine>>,
         variables: Vec<(usize, String)>,
         objectives: Vec<(String, Option<OrderNumber>)>,
         rpm: Vec<f64>,
@@ -825,7 +939,7 @@ impl MountObjectives {
             })
         };
         let objectives = objectives.into_iter().map(objective).collect::<PyResult<_>>()?;
-        let (engine, base) = (engine.get().0.as_ref().clone(), powertrain.get().0.as_ref().clone());
+        let (engine, base) = (core_of(engine).cloned(), powertrain.get().0.as_ref().clone());
         Ok(Self(mount_objectives::MountObjectives {
             engine,
             base,

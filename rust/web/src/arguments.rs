@@ -83,10 +83,11 @@ impl Arguments {
     pub fn mounted(&mut self) -> Result<(Engine, Option<Powertrain>)> {
         let text: Value = self.required("engine")?;
         let text = text.as_str().map_or_else(|| text.to_string(), str::to_owned);
-        if text.trim_start().starts_with('{') {
-            return file::mounted_from_json(&text);
-        }
-        file::mounted_from_toml(&text)
+        let is_json = text.trim_start().starts_with('{');
+        let read = if is_json { file::mounted_from_json } else { file::mounted_from_toml };
+        let (engine, powertrain) = read(&text)?;
+        let hint = "the page draws engines, and the file has none: a table of forces alone";
+        Ok((engine.ok_or_else(|| Error::value("engine", "none", hint))?, powertrain))
     }
 
     /// The engine of a file's text, with a force given for every cylinder, if there is one.

@@ -202,6 +202,7 @@ def test_mean_torque_winds_up_against_its_sense() -> None:
             "i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45, bore=0.086)
         ).with_cycle(cp.Cycle.example())
     )
+    assert fired.engine is not None
     mean = fired.engine.balance(1000).crank_torque.cycle_mean
     assert fired.static("engine").torque == near(mean, 1e-12)
 

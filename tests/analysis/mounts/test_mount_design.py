@@ -71,7 +71,7 @@ def test_a_torque_that_is_decoupled_shakes_in_one_mode_alone() -> None:
     couple = [([x, 0.0, 0.0], [0.0, y, 0.0]) for x, y in ((0.5, 1.0), (-0.5, -1.0))]
     forces = np.ones((3, 2), dtype=complex)
     r = fitted._core.response(
-        fitted.engine._core, np.array([600.0, 1500.0, 4000.0]), [2], 1e-9, (couple, forces, False)
+        fitted._engine_core, np.array([600.0, 1500.0, 4000.0]), [2], 1e-9, (couple, forces, False)
     )
     motion = r.motions()[:, 0]
     axis = np.concatenate([np.zeros(3), fitted.axes().torque_roll])

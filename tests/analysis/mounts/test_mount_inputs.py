@@ -141,6 +141,7 @@ def test_impossible_questions_are_rejected() -> None:
         P.with_misfire(2)
     bored = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
     fired = P.replace(engine=cp.Engine.preset("single", cylinder=bored).replace(firing_order="1"))
+    assert fired.engine is not None
     fired = fired.replace(engine=fired.engine.with_cycle(cp.Cycle.example(), crankcase=9e4))
     with pytest.raises(cp.InputError, match="cylinder = 1: it is the last that fires"):
         fired.with_misfire(1)

@@ -60,6 +60,7 @@ def test_forces_moments_and_power_balance(seed: int) -> None:
 def test_load_is_the_balance_about_the_cg(seed: int) -> None:
     p, rpm = random_case(seed)
     r = p.response(rpm[0], orders=[1, 2, 4])
+    assert p.engine is not None
     b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(p.body.cg)
     expected = np.concatenate(
         [b.force.xy, np.zeros((3, 1)), b.moment.xy, b.torque.phasor[:, None]], axis=-1
@@ -160,6 +161,7 @@ def test_moments_about_a_point_are_those_of_the_balance_and_of_the_mounts(seed: 
     r = p.response(rpm, orders=[1, 2, 4])
     point = tuple(np.random.default_rng(seed).uniform(-0.4, 0.4, 3))
     moved = r.about(point)
+    assert p.engine is not None
     b = p.engine.balance(rpm[0], orders=[1, 2, 4]).about(point)
     moments = [[b[n].moment.x, b[n].moment.y, b[n].torque.phasor] for n in r.orders]
     size = np.abs(moved.wrench[0, ...]).max()
@@ -260,6 +262,7 @@ def test_there_is_a_ratio_only_where_the_engine_has_a_load(seed: int) -> None:
     p, _ = random_case(seed)
     p = p.replace(engine=cp.Engine.preset(("i4", "i6", "v8-crossplane", "single")[seed % 4]))
     # Between two cranks of degrees rounding is never far.
+    assert p.engine is not None
     for about in (None, (0.1, 0.05, p.engine.reference_z)):
         r = p.response(3000.0, orders=[1, 2, 3, 4])
         r = r if about is None else r.about(about)

@@ -19,7 +19,6 @@ from crankpin._support.frames import Frames, Tabled
 from crankpin._support.messages import Hint, suppressed
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts.powertrain import Powertrain
-from crankpin.analysis.request import engine_core
 from crankpin.model.mounts import Mount
 
 if TYPE_CHECKING:
@@ -105,7 +104,7 @@ class MountDesign(Tabled):
     @property
     def loads_counted(self) -> str:
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
-        return self.powertrain.engine.loads_counted
+        return self.powertrain.loads_counted
 
     @property
     def table(self) -> Table:
@@ -132,7 +131,7 @@ class MountDesign(Tabled):
             note += f" {self.equally_good} of {self.starts} starts came to a design as good."
         if missed:
             note += f" Not reached within these bounds: {', '.join(missed)}."
-        name, carried = labels.name_of(self.powertrain.engine), self.powertrain._carried
+        name, carried = labels.name_of(self.powertrain), self.powertrain._carried
         title = f"{name}: design of its mounts{carried}"
         units = tuple(name.rpartition(" ")[2] for name in self.names)
         return Table(title, columns, note, self.loads_counted, units)
@@ -153,7 +152,7 @@ class MountDesign(Tabled):
             columns.append(Column(f"k{k + 1}", tuple(new for _, new in both), "N/m"))
             change = tuple(new / old if old else None for old, new in both)
             columns.append(Column(f"k{k + 1} over before", change))
-        title = f"{labels.name_of(self.powertrain.engine)}: mounts designed, dynamic stiffness"
+        title = f"{labels.name_of(self.powertrain)}: mounts designed, dynamic stiffness"
         return Table(title, tuple(columns), "", self.loads_counted)
 
 
@@ -299,7 +298,7 @@ class Question:
         self._scales: list[float] = []
         self._core = _core.MountObjectives(
             powertrain._core,
-            engine_core(powertrain.engine),
+            powertrain._engine_core,
             self.varied,
             self.objectives,
             [] if self.rpm is None else self.rpm,

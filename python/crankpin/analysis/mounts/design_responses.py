@@ -66,7 +66,7 @@ class DesignResponses(Labelled):
                 rows = values if values.ndim == 2 else np.repeat(values[:, None], 3, axis=1)
                 vary.append((names.index(name), figure, rows))
         responses = self.powertrain._core.designs(
-            self.powertrain.engine._core,
+            self.powertrain._engine_core,
             vary,
             self.rpm,
             (request.orders, request.rtol),
@@ -100,7 +100,7 @@ class DesignResponses(Labelled):
     @property
     def loads_counted(self) -> str:
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
-        return self.powertrain.engine.loads_counted
+        return self.powertrain.loads_counted
 
     _along: ClassVar[tuple[str, ...]] = ("order",)
     _registry: ClassVar[Mapping[str, Kind]] = DESIGNS
@@ -219,7 +219,7 @@ class DesignResponses(Labelled):
             columns.append(Column(f"f{k + 1}", tuple(cells), "Hz"))
         for axis, values in zip("xyz", self.read("body_force_rms").T, strict=True):
             columns.append(Column(f"F_{axis} rms", values, "N"))
-        name = labels.name_of(self.powertrain.engine)
+        name = labels.name_of(self.powertrain)
         title = f"{name} on {len(self)} designs of its mounts: largest force on the body"
         return Table(title, tuple(columns), loads=self.loads_counted)
 
@@ -262,7 +262,8 @@ def designs(
     result = DesignResponses(
         powertrain, MappingProxyType(values), speeds, request, is_each, places, hertz
     )
-    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(speeds.max())))
+    if powertrain.engine is not None:
+        inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(speeds.max())))
     return result
 
 

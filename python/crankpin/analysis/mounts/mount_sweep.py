@@ -69,7 +69,7 @@ class MountSweep(Labelled):
         if factors is None:
             engines = list(self.engines.values())
         else:
-            engines = [with_bob_weights(self.powertrain.engine, each) for each in factors.tolist()]
+            engines = [with_bob_weights(self.engine, each) for each in factors.tolist()]
         responses = [self._response(engine, request) for engine in engines]
         rows = [np.stack(_sizes(self._vectors(one)), axis=-1) for one in responses]
         self.__dict__["_rms"] = read_only(np.stack(rows))
@@ -90,7 +90,7 @@ class MountSweep(Labelled):
     @property
     def engine(self) -> Engine:
         """The engine of the powertrain."""
-        return self.powertrain.engine
+        return self.powertrain._require_engine("powertrain")
 
     @property
     def coords(self) -> Mapping[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
@@ -21,6 +22,7 @@ from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
 from crankpin.model import engine_files, supports
 from crankpin.model.engine import Engine
+from crankpin.model.forces import ForceTable
 from crankpin.model.mounts import Mount, RigidBody
 from crankpin.model.supports import Receptance, Subframe, Support
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from crankpin._core import Engine as CoreEngine
     from crankpin._support.inputs import Orders
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.design_responses import DesignResponses
@@ -46,12 +49,14 @@ class Powertrain(Framed, Input):
     """An engine on its mounts: the engine, the rigid body that moves with it, and the mounts.
 
     Every load of the engine counts: pistons, rods, counterweights, balance shafts, and gas pressure
-    where it has cycles. What carries the mounts does not move, unless it is given.
+    where it has cycles. Tables of forces, as makers print them, may take its place, or count
+    besides. What carries the mounts does not move, unless it is given.
 
     Parameters
     ----------
-    engine : Engine
-        The engine, with its cycle, shafts and counterweights.
+    engine : Engine or ForceTable or None
+        The engine, with its cycle, shafts and counterweights; or a table of forces without one, or
+        None beside ``forces``.
     body : RigidBody
         Engine, gearbox and all that moves with them.
     mounts : sequence of Mount
@@ -60,12 +65,15 @@ class Powertrain(Framed, Input):
         Flexible support of the mounts; by default firm ground. A subframe counts in every result
         except :meth:`designs` and pages, which reject it; a receptance gives a response, but no
         modes, axes, state at rest or tolerances.
+    forces : ForceTable or sequence of ForceTable, optional
+        Tables of forces that shake the body besides the engine, such as those of a driven machine,
+        or without one.
 
     Raises
     ------
     InputError
-        If there is no mount, or two have one name, or the support's coordinates are at other
-        mounts.
+        If there is no mount, or two have one name, nothing shakes the body, or the support's
+        coordinates are at other mounts.
 
     Examples
     --------
@@ -84,19 +92,29 @@ class Powertrain(Framed, Input):
     ((2, 3), 2)
     """
 
-    engine: Engine
+    engine: Engine | None
     body: RigidBody
     mounts: tuple[Mount, ...]
     support: Support | None
+    forces: tuple[ForceTable, ...]
 
     def __init__(
         self,
-        engine: Engine,
+        engine: Engine | ForceTable | None,
         body: RigidBody,
         mounts: Iterable[Mount],
         support: Support | None = None,
+        forces: ForceTable | Iterable[ForceTable] = (),
     ) -> None:
-        engine_core(engine)
+        listed = [forces] if isinstance(forces, ForceTable) else forces
+        tables = inputs.items("forces", listed, "give a list of crankpin.ForceTable")
+        for k, table in enumerate(tables):
+            if not isinstance(table, ForceTable):
+                raise inputs.rejected(f"forces[{k}]", table, "give a crankpin.ForceTable")
+        if isinstance(engine, ForceTable):
+            engine, tables = None, [engine, *tables]
+        if engine is not None or not tables:
+            engine_core(engine)
         if not isinstance(body, RigidBody):
             raise inputs.rejected("body", body, "give a crankpin.RigidBody")
         entries = inputs.items("mounts", mounts, "give a list of crankpin.Mount")
@@ -109,9 +127,10 @@ class Powertrain(Framed, Input):
             hint = "give a crankpin.Subframe or a crankpin.Receptance"
             raise inputs.rejected("support", carrier, hint)
         below = None if support is None else support._figures
-        core = _core.Powertrain(body._figures, figures, below)
+        texts = ", ".join(table._text() for table in tables)
+        core = _core.Powertrain(body._figures, figures, below, f"[{texts}]")
         self.__dict__.update(engine=engine, body=body, mounts=tuple(entries), support=support)
-        self.__dict__.update(_powertrain=core)
+        self.__dict__.update(forces=tuple(tables), _powertrain=core)
 
     @property
     def _core(self) -> _core.Powertrain:
@@ -131,13 +150,37 @@ class Powertrain(Framed, Input):
         )
 
     @property
+    def _engine_core(self) -> CoreEngine | None:
+        """The engine as the core has it, if there is one."""
+        return None if self.engine is None else self.engine._core
+
+    @property
+    def title(self) -> str:
+        """Names of the engine and the tables of forces, or substitutes."""
+        engine = [] if self.engine is None else [self.engine.title]
+        return " and ".join([*engine, *(table.title for table in self.forces)])
+
+    @property
+    def loads_counted(self) -> str:
+        """What shakes the body, in words: gas pressure and further loads, tables of forces."""
+        engine = [] if self.engine is None else [self.engine.loads_counted]
+        return "; ".join([*engine, *(table.loads_counted for table in self.forces)])
+
+    def _require_engine(self, name: str) -> Engine:
+        """Return the engine, or raise an error of an argument or a reading that needs one."""
+        if self.engine is None:
+            hint = "a table of forces alone shakes the body: give an engine"
+            raise inputs.faulty(name, "has no engine", hint)
+        return self.engine
+
+    @property
     def _title(self) -> str:
         """Name in titles."""
         return self._title_with("")
 
     def _title_with(self, driven: str) -> str:
         """Return the name in titles, with what drives it besides the engine."""
-        return f"{labels.name_of(self.engine)} on its mounts{driven}{self._carried}"
+        return f"{labels.name_of(self)} on its mounts{driven}{self._carried}"
 
     @property
     def _carried(self) -> str:
@@ -161,7 +204,7 @@ class Powertrain(Framed, Input):
         )
         mass = units.figure(self.body.mass, "kg", 6)
         title = units.Text(f"{self._title}\nbody of ", mass)
-        return Table(title, columns, loads=self.engine.loads_counted)
+        return Table(title, columns, loads=self.loads_counted)
 
     # --- questions --------------------------------------------------------------------------------
 
@@ -618,7 +661,8 @@ class Powertrain(Framed, Input):
             If the engine has no cycles, no such cylinder, or none that fires besides it.
         """
         number = inputs.whole("cylinder", cylinder)
-        cycles = self.engine.cycles
+        engine = self._require_engine("cylinder")
+        cycles = engine.cycles
         if cycles is None:
             raise inputs.rejected(
                 "cylinder", number, "no cylinder fires; give engine.with_cycle(…)"
@@ -630,13 +674,11 @@ class Powertrain(Framed, Input):
         if all(one is None for one in of_cylinders):
             hint = "it is the last that fires; give engine.with_cycle(None), without gas at all"
             raise inputs.rejected("cylinder", number, hint)
-        ends = [
-            one if k != number else None for k, one in enumerate(self.engine.crank_ends or (), 1)
-        ]
+        ends = [one if k != number else None for k, one in enumerate(engine.crank_ends or (), 1)]
         if not any(ends):
-            return self.replace(engine=self.engine.with_cycle(of_cylinders))
-        rods = self.engine.rod_diameter
-        fired = self.engine.with_cycle(of_cylinders, crank_end=ends, rod_diameter=rods)
+            return self.replace(engine=engine.with_cycle(of_cylinders))
+        rods = engine.rod_diameter
+        fired = engine.with_cycle(of_cylinders, crank_end=ends, rod_diameter=rods)
         return self.replace(engine=fired)
 
     # --- pages ------------------------------------------------------------------------------------
@@ -740,7 +782,7 @@ class Powertrain(Framed, Input):
 
     def _text(self, *, toml: bool) -> str:
         """Return the text of an engine file."""
-        return self._core.to_text(self.engine._core, toml)
+        return self._core.to_text(self._engine_core, toml)
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
@@ -769,12 +811,12 @@ class Powertrain(Framed, Input):
         if core is None:
             hint = "the file has no [powertrain], body and mounts; Engine.load reads its engine"
             raise inputs.rejected("path", str(file), hint)
-        mass, cg, inertia = core.body
-        body = RigidBody(mass, cg, inertia, products="tensor")
+        body = RigidBody._of(core.body)
         mounts = [Mount._of(figures) for figures in core.mounts]
         support = supports.of_core(core.support)
         for mount in (*mounts, *getattr(support, "mounts", ())):
             mount._warn()
-        engine = Engine._read(core_engine)
+        engine = None if core_engine is None else Engine._read(core_engine)
+        forces = [ForceTable._of(fields) for fields in json.loads(core.forces)]
         with suppressed():
-            return cls(engine, body, mounts, support)
+            return cls(engine, body, mounts, support, forces)

@@ -59,7 +59,8 @@ def response(
     speeds = inputs.array("rpm", rpm)
     checked: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
     response = MountResponse(powertrain, checked, request)
-    inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    if powertrain.engine is not None:
+        inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
     _warn_of_free_motion(response)
     return response
 
@@ -442,7 +443,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         request = check_request(self._request, "Powertrain.response")
         speeds = np.atleast_1d(np.asarray(self.rpm, dtype=float))
         core = self.powertrain._core.response(
-            self.powertrain.engine._core, speeds, request.orders, request.rtol, *self._drive()
+            self.powertrain._engine_core, speeds, request.orders, request.rtol, *self._drive()
         )
         self.__dict__.update(_response=core, _own_orders=tuple(core.orders))
         super().__post_init__()
@@ -509,7 +510,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     @property
     def loads_counted(self) -> str:
         """Gas pressure that counts, in words: as :attr:`Engine.loads_counted`."""
-        return self.powertrain.engine.loads_counted
+        return self.powertrain.loads_counted
 
     def _by_speed(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values over speeds, or those of the one speed."""
@@ -617,9 +618,9 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
         request = self._request.about(name, z if point is None else point)
-        core = self.powertrain.engine._core
-        checks.place(core, name, request.reference_z)
-        checks.place(core, name, *request.aside, middle=0.0)
+        if (core := self.powertrain._engine_core) is not None:
+            checks.place(core, name, request.reference_z)
+            checks.place(core, name, *request.aside, middle=0.0)
         return changed(self, _request=request)
 
     @property

@@ -155,7 +155,7 @@ class StaticState(Labelled):
             f" that leave the unit. The CG is {side} the mounts' polygon by ",
             units.figure(1e3 * abs(self.support_margin), "mm", 4), ". Static stiffness.",
         )  # fmt: skip
-        name, carried = labels.name_of(self.powertrain.engine), self.powertrain._carried
+        name, carried = labels.name_of(self.powertrain), self.powertrain._carried
         on = f" on its mounts{carried}" if carried else ""
         title = f"{name}{on} at rest: forces on what carries the mounts"
         return Table(title, tuple(columns), note)
@@ -175,12 +175,13 @@ def static(
     inputs.angular_speed(rpm)
     if isinstance(torque, str):
         inputs.one_of("torque", torque, ("engine",))
-        if not powertrain.engine.fired:
+        engine = powertrain._require_engine("torque")
+        if not engine.fired:
             hint = (
                 "the engine has no cycle and so no mean torque: give N·m, or engine.with_cycle(…)"
             )
             raise inputs.rejected("torque", "engine", hint)
-        leaving = powertrain.engine.balance(rpm, orders=[1]).crank_torque.cycle_mean
+        leaving = engine.balance(rpm, orders=[1]).crank_torque.cycle_mean
     ratio = inputs.finite("gear_ratio", gear_ratio)
     if ratio == 0.0:
         raise inputs.rejected(

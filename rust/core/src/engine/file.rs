@@ -47,6 +47,8 @@ struct EngineFile {
     /// Running gear of every station that has none of its own.
     #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
+    /// Left out of a file of a body that a table of forces shakes alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     placements: Vec<StationEntry>,
     /// On the crankshaft, besides the rotating masses.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -400,15 +402,33 @@ impl EngineFile {
         })
     }
 
-    /// The engine, and its body on mounts, if there is one.
-    fn mounted(mut self) -> Result<(Engine, Option<Powertrain>)> {
+    /// The engine, if there is one, and its body on mounts, if there is one: not neither.
+    fn mounted(mut self) -> Result<(Option<Engine>, Option<Powertrain>)> {
         let powertrain = self.powertrain.take();
         let powertrain = powertrain.map(|entry| entry.powertrain("powertrain.")).transpose()?;
-        Ok((self.engine()?, powertrain))
+        let is_shaken = powertrain.as_ref().is_some_and(|alone| !alone.forces().is_empty());
+        if is_shaken && self.placements.is_empty() {
+            self.check_schema()?;
+            return Ok((None, powertrain));
+        }
+        Ok((Some(self.engine()?), powertrain))
+    }
+
+    fn check_schema(&self) -> Result<()> {
+        if self.schema == SCHEMA {
+            return Ok(());
+        }
+        let hint = format!("this version reads schema = {SCHEMA}");
+        Err(Error::value("schema", self.schema, hint))
     }
 
     /// What is written of an engine for people, and its body on mounts: examples by name.
-    fn mounted_of(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<Self> {
+    fn mounted_of(engine: Option<&Engine>, powertrain: Option<&Powertrain>) -> Result<Self> {
+        let Some(engine) = engine else {
+            let empty = format!(r#"{{"schema": {SCHEMA}}}"#);
+            let powertrain = powertrain.map(PowertrainEntry::of);
+            return Ok(Self { powertrain, ..of_json(&empty)? });
+        };
         let mut file = Self::of(engine)?;
         let cycles = engine.gas().into_iter().flat_map(|gas| &gas.cycles);
         for (entry, cycle) in file.cycles.iter_mut().zip(cycles) {
@@ -545,9 +565,11 @@ impl EngineFile {
     }
 
     fn engine(mut self) -> Result<Engine> {
-        if self.schema != SCHEMA {
-            let hint = format!("this version reads schema = {SCHEMA}");
-            return Err(Error::value("schema", self.schema, hint));
+        self.check_schema()?;
+        if self.placements.is_empty() {
+            let hint = "give a cylinder or more: a file without them has a [powertrain] with forces, which \
+                        Powertrain reads";
+            return Err(Error::value("placements", "none", hint));
         }
         let (stations, details) = self.stations()?;
         let link_rods = self.link_rods(&stations, &details)?;
@@ -602,14 +624,20 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 }
 
 /// An engine, and its body on mounts, as TOML.
-pub fn mounted_to_toml(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
-    let file = EngineFile::mounted_of(engine, powertrain)?;
+pub fn mounted_to_toml<'a>(
+    engine: impl Into<Option<&'a Engine>>,
+    powertrain: Option<&Powertrain>,
+) -> Result<String> {
+    let file = EngineFile::mounted_of(engine.into(), powertrain)?;
     toml::to_string(&file).map_err(|e| unreadable("TOML", &e))
 }
 
 /// An engine, and its body on mounts, as JSON.
-pub fn mounted_to_json(engine: &Engine, powertrain: Option<&Powertrain>) -> Result<String> {
-    let file = EngineFile::mounted_of(engine, powertrain)?;
+pub fn mounted_to_json<'a>(
+    engine: impl Into<Option<&'a Engine>>,
+    powertrain: Option<&Powertrain>,
+) -> Result<String> {
+    let file = EngineFile::mounted_of(engine.into(), powertrain)?;
     serde_json::to_string_pretty(&file).map_err(|e| unreadable("JSON", &e))
 }
 
@@ -632,8 +660,8 @@ pub fn from_toml(text: &str) -> Result<Engine> {
     of_toml(text)?.engine()
 }
 
-/// Engine from TOML, and its body on mounts, if there is one.
-pub fn mounted_from_toml(text: &str) -> Result<(Engine, Option<Powertrain>)> {
+/// Engine from TOML, and its body on mounts, if there is one; no engine where a table of forces shakes that alone.
+pub fn mounted_from_toml(text: &str) -> Result<(Option<Engine>, Option<Powertrain>)> {
     of_toml(text)?.mounted()
 }
 
@@ -656,8 +684,8 @@ pub fn from_json(text: &str) -> Result<Engine> {
     of_checked_json(text)?.engine()
 }
 
-/// Engine from JSON, and its body on mounts, if there is one.
-pub fn mounted_from_json(text: &str) -> Result<(Engine, Option<Powertrain>)> {
+/// Engine from JSON, and its body on mounts, if there is one; no engine where a table of forces shakes that alone.
+pub fn mounted_from_json(text: &str) -> Result<(Option<Engine>, Option<Powertrain>)> {
     of_checked_json(text)?.mounted()
 }
 
@@ -929,9 +957,10 @@ mod tests {
     fn bodies_on_mounts_read_back_as_equal_ones() {
         use crate::Complex64;
         use crate::mounts::{
-            InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance, RigidBody, Support,
-            Table,
+            ForceTable, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance,
+            RigidBody, Support, Table,
         };
+        use crate::numbers::amplitudes::Amplitudes;
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
         let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
@@ -964,7 +993,8 @@ mod tests {
         let mounts = mounts.into_iter().map(|figures| Mount::new(figures).unwrap()).collect();
         let powertrain = Powertrain::new(body, mounts).unwrap();
         let text = mounted_to_toml(&engine, Some(&powertrain)).unwrap();
-        let (both, engine_again) = ((engine.clone(), Some(powertrain.clone())), engine.clone());
+        let (both, engine_again) =
+            ((Some(engine.clone()), Some(powertrain.clone())), engine.clone());
         assert_eq!(mounted_from_toml(&text).unwrap(), both, "{text}");
         let json = mounted_to_json(&engine, Some(&powertrain)).unwrap();
         assert_eq!(mounted_from_json(&json).unwrap(), both);
@@ -972,6 +1002,25 @@ mod tests {
             (from_toml(&text).unwrap(), from_json(&json).unwrap()),
             (engine.clone(), engine)
         );
+        let row = (1..=7).map(|k| Complex64::new(f64::from(k), 0.1)).collect();
+        let forces = ForceTable {
+            name: "maker's".into(),
+            rpm: 105.0,
+            about: [0.0, 0.1, 0.2],
+            speed_squared: Amplitudes(vec![(2, row)]),
+            independent: Amplitudes::default(),
+        };
+        let shaken = powertrain.clone().with_forces(vec![forces]).unwrap();
+        for engine in [None, Some(&engine_again)] {
+            let both = (engine.cloned(), Some(shaken.clone()));
+            let toml = mounted_to_toml(engine, Some(&shaken)).unwrap();
+            assert_eq!(mounted_from_toml(&toml).unwrap(), both, "{toml}");
+            assert_eq!(from_toml(&toml).is_ok(), engine.is_some());
+            let json = mounted_to_json(engine, Some(&shaken)).unwrap();
+            assert_eq!(mounted_from_json(&json).unwrap(), both);
+        }
+        let below = Support::Subframe(Box::new(shaken));
+        assert!(powertrain.clone().on(below).unwrap_err().to_string().contains("with forces"));
         let error = |from: &str, to: &str| {
             mounted_from_toml(&text.replacen(from, to, 1)).unwrap_err().to_string()
         };
@@ -993,7 +1042,7 @@ mod tests {
             Support::Subframe(Box::new(powertrain.clone())),
             Support::Receptance(receptance.checked().unwrap()),
         ] {
-            let both = (engine_again.clone(), Some(powertrain.clone().on(support).unwrap()));
+            let both = (Some(engine_again.clone()), Some(powertrain.clone().on(support).unwrap()));
             let text = mounted_to_toml(&both.0, both.1.as_ref()).unwrap();
             assert_eq!(mounted_from_toml(&text).unwrap(), both, "{text}");
             let json = mounted_to_json(&both.0, both.1.as_ref()).unwrap();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{Engine, check_each_cylinder};
 use crate::Complex64;
 use crate::mechanism::Mechanism;
+pub use crate::mechanism::articulated::equal::EqualTravel;
 use crate::mechanism::articulated::{HAS_LINK_RODS, Knuckle, RunningGear};
 use crate::mechanism::motion::CrankPosition;
 use crate::numbers::angle::{Angle, cis_degrees};
@@ -28,15 +29,36 @@ pub struct LinkRod {
 /// Link rods on every crankpin that cylinders share with that of a master rod.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkRods {
-    /// Distance of the knuckles from the crankpin, m.
-    pub radius: f64,
+    /// Distance of the knuckles from the crankpin, m; none where it is solved for.
+    pub radius: Option<f64>,
     /// Length of the link rods, m; none for those of the cylinders' rods.
     pub length: Option<f64>,
     /// Angles of the knuckles from the master's shank, counter-clockwise, in the order of the cylinders that have link
-    /// rods; none for those between the bores.
+    /// rods; none for those between the bores, or where they are solved for.
     pub angles: Option<Vec<Angle>>,
     /// Mass of each link rod at its knuckle, kg; none for the big end of the cylinder's rod.
     pub big_end_mass: Option<f64>,
+    /// What knuckles are solved for.
+    pub equal: Option<EqualTravel>,
+}
+
+impl LinkRods {
+    /// Rejects figures that are solved for, and the lack of others.
+    fn check(&self) -> Result<()> {
+        let solved = "it is solved for with `equal`: leave it out";
+        if self.angles.is_some() && self.equal.is_some() {
+            return Err(Error::value("angles_deg", "given", solved));
+        }
+        let is_solved = self.equal == Some(EqualTravel::Compression);
+        match self.radius {
+            Some(radius) if is_solved => Err(Error::figure("radius", radius, solved)),
+            None if !is_solved => {
+                let hint = "give the distance of the knuckles from the crankpin, m, or let equal compression solve for it";
+                Err(Error::value("radius", "None", hint))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Ends of the travel of a piston.
@@ -95,6 +117,7 @@ impl Engine {
     /// share, and link rods in those beside them. The big end of a link rod's cylinder no longer turns with the
     /// crankpin.
     pub fn with_master_rods(&self, rods: &LinkRods, masters: Option<&[usize]>) -> Result<Self> {
+        rods.check()?;
         let count = self.stations.len();
         let pins = || self.crankpins().into_iter().map(|pin| pin.cylinders);
         let shared: Vec<Vec<usize>> = pins().filter(|cylinders| cylinders.len() > 1).collect();
@@ -138,10 +161,49 @@ impl Engine {
                 // Those of a rod of another length.
                 (details.rod, details.piston_mass) = (None, None);
             }
-            link_rods[i] = Some(LinkRod { master, radius: rods.radius, angle, big_end_mass });
+            let length = station.cylinder.rod_length();
+            let nominal = self.stations[master].cylinder.rod_length() - length;
+            let radius = rods.radius.unwrap_or(nominal);
+            if radius < 0.0 {
+                let hint = "with equal compression link rods are shorter than their master's rod: give less";
+                return Err(Error::figure("length", length, hint));
+            }
+            link_rods[i] = Some(LinkRod { master, radius, angle, big_end_mass });
         }
         engine.number_cylinders();
-        engine.with_link_rods(link_rods)
+        let linked = engine.with_link_rods(link_rods)?;
+        match rods.equal {
+            Some(equal) => linked.equalised(equal),
+            None => Ok(linked),
+        }
+    }
+
+    /// The same engine with knuckles solved for, near its own.
+    fn equalised(&self, equal: EqualTravel) -> Result<Self> {
+        let mut link_rods = self.link_rods.clone();
+        for (i, link) in link_rods.iter_mut().enumerate() {
+            let (Some(link), Some(knuckle)) = (link, self.knuckle(i)) else { continue };
+            let DeadCentres { height, stroke, .. } = self.ends_of(link.master);
+            let solved = knuckle.equalised(&self.stations[i].cylinder, equal, [height, stroke])?;
+            let Some(solved) = solved else {
+                let what = match equal {
+                    EqualTravel::Stroke => "the stroke",
+                    EqualTravel::Compression => "height and stroke",
+                };
+                let hint = format!(
+                    "no knuckle near its bore gives the piston of cylinder {} {what} of cylinder {}: give other \
+                     lengths, or `angles_deg`",
+                    i + 1,
+                    link.master + 1
+                );
+                return Err(Error::value("equal", format!("{:?}", equal.word()), hint));
+            };
+            if solved != knuckle {
+                link.radius = solved.radius;
+                link.angle = self.seen(i, solved.angle).reduced();
+            }
+        }
+        self.with_link_rods(link_rods)
     }
 
     /// Ends of the travel of each piston, and compression ratios by that of the first cylinder.
@@ -175,7 +237,7 @@ impl Engine {
         DeadCentres {
             angles_deg: turning.map(angle),
             height: highest * station.cylinder.crank_radius(),
-            stroke: mechanism.travel(),
+            stroke: self.travel(cylinder),
             compression_ratio: None,
         }
     }
@@ -260,13 +322,17 @@ impl Engine {
     fn knuckle(&self, cylinder: usize) -> Option<Knuckle> {
         let LinkRod { master, radius, angle, .. } = self.link_rods[cylinder]?;
         let [own, of_master] = [cylinder, master].map(|i| &self.stations[i]);
-        let seen = |angle: Angle| if self.ratio_of(cylinder).is_forward() { angle } else { -angle };
         Some(Knuckle {
             master: of_master.cylinder.without_masses(),
             radius,
-            angle: seen(angle).reduced(),
-            ahead: seen(own.bank - of_master.bank).reduced(),
+            angle: self.seen(cylinder, angle).reduced(),
+            ahead: self.seen(cylinder, own.bank - of_master.bank).reduced(),
         })
+    }
+
+    /// An angle in the sense in which the crank of a cylinder turns, and back.
+    fn seen(&self, cylinder: usize, angle: Angle) -> Angle {
+        if self.ratio_of(cylinder).is_forward() { angle } else { -angle }
     }
 
     /// A cylinder, and what its rod hangs on.
@@ -286,6 +352,14 @@ impl Engine {
         let known = self.kept.get(|_: &Vec<Option<Arc<dyn Mechanism>>>| true, all);
         let known = known.ok().and_then(|known| known[cylinder].clone());
         known.unwrap_or_else(|| self.running_gear(cylinder).mechanism())
+    }
+
+    /// Travel of a cylinder's piston, m.
+    pub(crate) fn travel(&self, cylinder: usize) -> f64 {
+        match self.link_rods[cylinder] {
+            None => self.stations[cylinder].cylinder.travel(),
+            Some(_) => self.mechanism(cylinder).travel(),
+        }
     }
 
     fn link_mechanism(&self, cylinder: usize) -> Option<Arc<dyn Mechanism>> {

@@ -28,13 +28,14 @@ pub use self::chambers::SharedChamber;
 pub use self::faces::{CrankEnd, Face, FacePressure};
 pub use self::gas::Gas;
 use self::layout::Strokes;
-pub use self::links::{DeadCentres, LinkRod, LinkRods};
-pub use self::periodic::{ActsOn, Amplitudes, OverSpeed, PeriodicLoad};
+pub use self::links::{DeadCentres, EqualTravel, LinkRod, LinkRods};
+pub use self::periodic::{ActsOn, OverSpeed, PeriodicLoad};
 pub use self::several_cranks::EngineOnCrank;
 pub use self::shaft::{Crank, Origin, Shaft, Unbalance};
 use crate::mechanism::cylinder::Cylinder;
 use crate::mechanism::rod::Rod;
 use crate::mechanism::spectrum::Spectrum;
+pub use crate::numbers::amplitudes::Amplitudes;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex, distinct, list_index};
@@ -494,7 +495,7 @@ impl Engine {
     /// piston in a turn of its own crank.
     #[must_use]
     pub fn mean_piston_speed(&self, rpm: f64) -> f64 {
-        self.mean_piston_speed_of(rpm, |i| self.mechanism(i).travel())
+        self.mean_piston_speed_of(rpm, |i| self.travel(i))
     }
 
     /// The same with the travel of each cylinder's piston, m.

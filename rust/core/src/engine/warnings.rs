@@ -216,9 +216,9 @@ pub fn place(engine: &Engine, argument: &str, at: f64, middle: f64) -> Option<Wa
 #[must_use]
 pub fn piston_speed(speed: f64) -> Option<Warning> {
     let is_fast = FASTEST_PISTON < speed && speed < f64::INFINITY;
-    let fault = format!("is {speed:.0} m/s, more than any engine's ({FASTEST_PISTON:.0})");
+    let fault = || format!("is {speed:.0} m/s, more than any engine's ({FASTEST_PISTON:.0})");
     let hint = "were lengths given in millimetres? They are metres here, and masses kilograms.";
-    is_fast.then(|| Warning::new("rpm", fault, hint).about("mean piston speed".into()))
+    is_fast.then(|| Warning::new("rpm", fault(), hint).about("mean piston speed".into()))
 }
 
 /// Of a moment of inertia that no flywheel of an engine has, kg·m².

@@ -13,7 +13,7 @@ pub(crate) struct Bodies<'a, const N: usize> {
     pub mass: SMatrix<f64, N, N>,
     /// L⁻ᵀ, whose columns have unit mass, with L·Lᵀ the mass matrix.
     pub unit: SMatrix<f64, N, N>,
-    /// Deflection of each mount along its axes.
+    /// Deflection of each spring.
     pub deflections: &'a [SMatrix<f64, 3, N>],
 }
 
@@ -80,20 +80,20 @@ impl<const N: usize> Bodies<'_, N> {
         }
     }
 
-    /// Static stiffness of all mounts along their axes.
+    /// Static stiffness of all springs.
     pub fn static_stiffnesses(&self) -> Vec<[f64; 3]> {
-        self.powertrain.all_mounts().map(Mount::static_stiffness).collect()
+        self.powertrain.all_springs().map(|spring| spring.static_stiffness()).collect()
     }
 
-    /// Force of a mount on what carries it, along x, y and z, of stiffness along its axes and a motion, and the
+    /// Force of a spring on what carries it, along x, y and z, of stiffness along its axes and a motion, and the
     /// bound of its rounding, of that of the motion.
     pub fn force(
         &self,
-        (mount, of): (usize, &Mount),
+        (spring, of): (usize, &Mount),
         along: &[f64; 3],
         [motion, rounding]: [&SVector<f64, N>; 2],
     ) -> [Vector3<f64>; 2] {
-        let (deflection, stiffness) = (&self.deflections[mount], Vector3::from(*along));
+        let (deflection, stiffness) = (&self.deflections[spring], Vector3::from(*along));
         let axes = of.axes().transpose();
         let of_motion = rounding + motion.abs() * (N as f64 * f64::EPSILON);
         let of_deflection = deflection.abs() * of_motion;

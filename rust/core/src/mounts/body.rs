@@ -79,6 +79,46 @@ impl RigidBody {
         Err(Error::figure("inertia", least, hint))
     }
 
+    /// A cuboid of one density, kg/m³, with sides along x, y and z, m, about its centre, m.
+    pub fn block(sides: [f64; 3], centre: [f64; 3], density: f64) -> Result<Self> {
+        for (name, side) in ["width", "height", "length"].into_iter().zip(sides) {
+            limits::length(name, side)?;
+        }
+        if !(limits::SMALLEST..=limits::LARGEST).contains(&density) {
+            return Err(Error::figure(
+                "density",
+                density,
+                "give kg/m³, above zero: 2400 of concrete",
+            ));
+        }
+        let mass = density * sides.iter().product::<f64>();
+        let squares = sides.map(|side| side * side);
+        let all = squares.iter().sum::<f64>();
+        let moment = |axis: usize| mass * (all - squares[axis]) / 12.0;
+        let inertia = Matrix3::from_diagonal(&Vector3::from([0, 1, 2].map(moment)));
+        Self::new(mass, centre, inertia.into(), None)
+    }
+
+    /// Several bodies that move as one.
+    pub fn combined(bodies: &[Self]) -> Result<Self> {
+        let mass = bodies.iter().map(Self::mass).sum::<f64>();
+        if bodies.is_empty() {
+            return Err(Error::value("bodies", "none", "give one body or more"));
+        }
+        let cg = bodies.iter().map(|body| body.cg * (body.mass / mass)).sum::<Vector3<f64>>();
+        let inertia = bodies.iter().map(|body| body.inertia_about(cg)).sum::<Matrix3<f64>>();
+        // Sums of rounded products are symmetric to their rounding.
+        Self::new(mass, cg.into(), inertia.into(), Some(Products::Tensor))
+    }
+
+    /// Inertia tensor about a point, kg·m².
+    #[must_use]
+    pub fn inertia_about(&self, point: Vector3<f64>) -> Matrix3<f64> {
+        let arm = point - self.cg;
+        let square = Matrix3::from_diagonal_element(arm.norm_squared());
+        self.inertia + (square - arm * arm.transpose()) * self.mass
+    }
+
     /// Mass, kg.
     #[must_use]
     pub fn mass(&self) -> f64 {

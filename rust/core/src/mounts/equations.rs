@@ -128,7 +128,7 @@ impl Equations {
     ) -> Result<Self> {
         let unit = powertrain.unit_mass()?;
         let complex = unit.map(Complex64::from);
-        let is_constant = !powertrain.mounts().iter().any(|mount| mount.dynamic().damping_varies());
+        let is_constant = !powertrain.springs().any(|spring| spring.dynamic().damping_varies());
         if is_constant && least > 0.0 {
             let stiffnesses = powertrain.stiffnesses(least, String::new)?;
             if let Some(natural) = natural {
@@ -303,9 +303,9 @@ impl Pencil {
     fn of(powertrain: &Powertrain, unit: &Matrix6<f64>) -> Self {
         let zero = [0.0; ENTRIES];
         let mut pencil = Self { constant: [zero; 2], viscous: zero, varying: Vec::new() };
-        for (mount, deflection) in powertrain.mounts().iter().zip(powertrain.deflections()) {
+        for (spring, deflection) in powertrain.springs().zip(powertrain.deflections()) {
             let turned = deflection * unit;
-            let constant = mount.dynamic().constant();
+            let constant = spring.dynamic().constant();
             for axis in 0..3 {
                 let entries = PLACES.map(|(i, j)| turned[(axis, i)] * turned[(axis, j)]);
                 let Some((stiffness, damping)) = constant else {

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    DIRECTIONS, Mount, MountFigures, Powertrain, Products, Receiver, Receptance, RigidBody,
-    Support, Table,
+    DIRECTIONS, ForceTable, Mount, MountFigures, Powertrain, Products, Receiver, Receptance,
+    RigidBody, Support, Table,
 };
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
@@ -19,6 +19,9 @@ pub(crate) struct PowertrainEntry {
     subframe: Option<Box<PowertrainEntry>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     receptance: Option<ReceptanceEntry>,
+    /// What shakes the body besides an engine.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    forces: Vec<ForceTable>,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -82,7 +85,8 @@ impl PowertrainEntry {
             Some(Support::Receptance(receptance)) => (None, Some(ReceptanceEntry::of(receptance))),
         };
         let mounts = powertrain.mounts().iter().map(|mount| mount.figures().clone()).collect();
-        Self { body: BodyEntry::of(powertrain.body()), mounts, subframe, receptance }
+        let (body, forces) = (BodyEntry::of(powertrain.body()), powertrain.forces().to_vec());
+        Self { body, mounts, subframe, receptance, forces }
     }
 
     /// The powertrain; `place` is its name in errors, and a point.
@@ -100,6 +104,7 @@ impl PowertrainEntry {
         let body = body.map_err(within("body."))?;
         let powertrain =
             Powertrain::new(body, mounts.collect::<Result<_>>()?).map_err(within(""))?;
+        let powertrain = powertrain.with_forces(self.forces).map_err(within(""))?;
         let support = match (self.subframe, self.receptance) {
             (None, None) => return Ok(powertrain),
             (Some(_), Some(_)) => {

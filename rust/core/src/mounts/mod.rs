@@ -10,11 +10,13 @@ pub(crate) mod equations;
 mod feedback;
 pub(crate) mod file;
 mod footprint;
+mod forces;
 mod modes;
 mod mount;
 mod robustness;
 mod roll;
 mod severity;
+mod soil;
 mod static_state;
 mod stiffness;
 mod support;
@@ -27,12 +29,15 @@ pub use self::bodies::matrices;
 pub use self::body::{Products, RigidBody};
 pub use self::feedback::{InertialActuator, motor_share};
 pub use self::footprint::support_polygon;
+pub(crate) use self::forces::moved;
+pub use self::forces::{COMPONENTS, ForceTable};
 pub use self::modes::{EQUAL_FREQUENCIES, FreeMotion, Modes, free_motions, modes};
 pub(crate) use self::modes::{NaturalModes, frequency_and_purity, natural_at};
 pub use self::mount::{Mount, MountFigures, motion_of_point};
 pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::roll::RollReaction;
 pub use self::severity::{GRADES, Levels, grade};
+pub use self::soil::{Base, Soil};
 pub use self::static_state::{Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};
 pub use self::support::{Coordinate, DIRECTIONS, Receiver, Receptance, State, Support};
@@ -41,6 +46,8 @@ use crate::numbers::error::{Error, Result};
 
 /// Most mounts of a body.
 pub const MOST_MOUNTS: usize = 1000;
+/// Most tables of forces on a body.
+const MOST_TABLES: usize = 256;
 /// Least over largest pivot of a matrix that has an inverse.
 const LEAST_PIVOT: f64 = 1e-14;
 /// Rounding errors that a number gathers in sums of a dozen products and in rotations of Jacobi's method.
@@ -71,14 +78,19 @@ pub type ComplexVector6 = nalgebra::Vector6<Complex64>;
 pub struct Powertrain {
     body: RigidBody,
     mounts: Vec<Mount>,
-    /// Deflection of each mount along its axes, of the motion.
+    /// Deflection of each spring, of the motion: of each mount along its axes, then about them of those that resist
+    /// rotation.
     deflections: Vec<Matrix3x6<f64>>,
+    /// Indices of the mounts that resist rotation.
+    rotations: Vec<usize>,
     /// What carries the mounts, if it gives way.
     support: Option<Support>,
-    /// Deflection of each mount and each mount of a subframe, of the motions of both bodies; empty without one.
+    /// Deflection of each spring and each spring of a subframe, of the motions of both bodies; empty without one.
     of_both: Vec<SMatrix<f64, 3, 12>>,
     /// Places of a receptance's coordinates among the directions of all mounts.
     coordinates: Vec<usize>,
+    /// What shakes the body besides an engine.
+    forces: Vec<ForceTable>,
 }
 
 impl Powertrain {
@@ -95,9 +107,39 @@ impl Powertrain {
             }
         }
         let deflection = |mount: &Mount| mount.axes() * motion_of_point(&(mount.at() - body.cg()));
-        let deflections = mounts.iter().map(deflection).collect();
+        let resists = |k: &usize| mounts[*k].rotation().is_some();
+        let rotations: Vec<usize> = (0..mounts.len()).filter(resists).collect();
+        let turned = rotations.iter().map(|&k| rotation_of(&mounts[k]));
+        let deflections = mounts.iter().map(deflection).chain(turned).collect();
         let (of_both, coordinates) = (Vec::new(), Vec::new());
-        Ok(Self { body, mounts, deflections, support: None, of_both, coordinates })
+        let forces = Vec::new();
+        Ok(Self {
+            body,
+            mounts,
+            deflections,
+            rotations,
+            support: None,
+            of_both,
+            coordinates,
+            forces,
+        })
+    }
+
+    /// The same with tables of forces that shake the body besides an engine.
+    pub fn with_forces(self, forces: Vec<ForceTable>) -> Result<Self> {
+        if forces.len() > MOST_TABLES {
+            let hint = format!("give at most {MOST_TABLES}");
+            return Err(Error::value("forces", format!("{} tables", forces.len()), hint));
+        }
+        let checked = forces.into_iter().enumerate();
+        let checked = checked.map(|(k, table)| table.checked(&format!("forces[{k}].")));
+        Ok(Self { forces: checked.collect::<Result<_>>()?, ..self })
+    }
+
+    /// Tables of forces that shake the body besides an engine.
+    #[must_use]
+    pub fn forces(&self) -> &[ForceTable] {
+        &self.forces
     }
 
     /// The body.
@@ -112,19 +154,43 @@ impl Powertrain {
         &self.mounts
     }
 
-    /// Deflection of each mount along its own axes, of the motion.
+    /// Deflection of each spring, of the motion: of the mounts along their own axes, then about them of those that
+    /// resist rotation.
     #[must_use]
     pub fn deflections(&self) -> &[Matrix3x6<f64>] {
         &self.deflections
     }
 
-    /// Stiffness of each mount along its axes at an angular speed, N/m; `point` names the operation.
+    /// Stiffness of each spring at an angular speed, N/m and N·m/rad; `point` names the operation.
     pub fn stiffnesses(
         &self,
         omega: f64,
         point: impl Fn() -> String,
     ) -> Result<Vec<[Complex64; 3]>> {
-        self.mounts.iter().map(|mount| mount.stiffness_at(omega, &point)).collect()
+        self.springs().map(|spring| spring.stiffness_at(omega, &point)).collect()
+    }
+
+    /// The springs: each mount along its axes, then those that resist rotation about them.
+    pub fn springs(&self) -> impl Iterator<Item = Spring<'_>> {
+        let along = (0..self.mounts.len()).map(|owner| (owner, false));
+        let about = self.rotations.iter().map(|&owner| (owner, true));
+        along.chain(about).map(|(owner, is_rotation)| Spring {
+            owner,
+            mount: &self.mounts[owner],
+            is_rotation,
+        })
+    }
+
+    /// The springs, then those of a subframe, whose owners are counted after the mounts.
+    pub fn all_springs(&self) -> impl Iterator<Item = Spring<'_>> {
+        let count = self.mounts.len();
+        let below = self.support.as_ref().and_then(|support| match support {
+            Support::Subframe(subframe) => Some(subframe.springs()),
+            Support::Receptance(_) => None,
+        });
+        let below = below.into_iter().flatten();
+        self.springs()
+            .chain(below.map(move |spring| Spring { owner: count + spring.owner, ..spring }))
     }
 
     /// The mounts, then those of a subframe.
@@ -146,7 +212,7 @@ impl Powertrain {
         self.all_mounts().enumerate().map(of).collect()
     }
 
-    /// Sum of mounts of these stiffnesses along their axes: complex symmetric.
+    /// Sum of springs of these stiffnesses: complex symmetric.
     #[must_use]
     pub fn assembled(&self, stiffnesses: &[[Complex64; 3]]) -> ComplexMatrix6 {
         assembled(&self.deflections, stiffnesses)
@@ -185,17 +251,19 @@ impl Powertrain {
         Some(scaled * factors.solve(&(scaled * load))?)
     }
 
-    /// Deflection of a mount along its axes, of a motion and the displacement of what carries it.
+    /// Deflection of a spring, of a motion and the displacement of what carries it, or its rotation.
     #[must_use]
     pub fn deflection(
         &self,
-        mount: usize,
+        spring: usize,
         motion: &ComplexVector6,
         carrier: Option<&Vector3<Complex64>>,
     ) -> Vector3<Complex64> {
-        let along = complex(&self.deflections[mount]) * motion;
+        let along = complex(&self.deflections[spring]) * motion;
+        let count = self.mounts.len();
+        let owner = if spring < count { spring } else { self.rotations[spring - count] };
         carrier
-            .map_or(along, |moved| along - self.mounts[mount].axes().map(Complex64::from) * moved)
+            .map_or(along, |moved| along - self.mounts[owner].axes().map(Complex64::from) * moved)
     }
 
     /// Force of a mount on what carries it, along x, y and z, of stiffness and deflection along its axes.
@@ -219,7 +287,59 @@ impl Powertrain {
     }
 }
 
-/// Sum of mounts of these stiffnesses along their axes, of their deflections.
+/// A mount along its axes, or about them.
+#[derive(Debug, Clone, Copy)]
+pub struct Spring<'a> {
+    /// Index of the mount.
+    pub owner: usize,
+    /// The mount.
+    pub mount: &'a Mount,
+    /// Whether it resists rotation.
+    pub is_rotation: bool,
+}
+
+impl Spring<'_> {
+    /// Complex stiffness at an angular speed, N/m or N·m/rad; as [`Mount::stiffness_at`].
+    pub fn stiffness_at(
+        &self,
+        omega: f64,
+        point: impl FnOnce() -> String,
+    ) -> Result<[Complex64; 3]> {
+        match self.mount.rotation().filter(|_| self.is_rotation) {
+            Some(about) => Ok(about.at(omega).unwrap_or_default()),
+            None => self.mount.stiffness_at(omega, point),
+        }
+    }
+
+    /// Static stiffness, N/m or N·m/rad.
+    #[must_use]
+    pub fn static_stiffness(&self) -> [f64; 3] {
+        let figures = self.mount.figures();
+        if self.is_rotation { figures.rotational_stiffness } else { figures.stiffness }
+    }
+
+    /// Stiffness in motion without loss, N/m or N·m/rad; of a table the static one.
+    #[must_use]
+    pub fn in_motion(&self) -> [f64; 3] {
+        let figures = self.mount.figures();
+        if self.is_rotation { figures.rotational_stiffness } else { figures.in_motion() }
+    }
+
+    /// How the stiffness depends on frequency.
+    #[must_use]
+    pub fn dynamic(&self) -> &Dynamic {
+        self.mount.rotation().filter(|_| self.is_rotation).unwrap_or(self.mount.dynamic())
+    }
+}
+
+/// Rotation of a mount about its axes, of the motion.
+fn rotation_of(mount: &Mount) -> Matrix3x6<f64> {
+    let mut turned = Matrix3x6::zeros();
+    turned.fixed_view_mut::<3, 3>(0, 3).copy_from(&mount.axes());
+    turned
+}
+
+/// Sum of springs of these stiffnesses, of their deflections.
 fn assembled<const N: usize>(
     deflections: &[SMatrix<f64, 3, N>],
     stiffnesses: &[[Complex64; 3]],

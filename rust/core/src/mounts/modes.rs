@@ -306,15 +306,14 @@ fn modes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Resul
     let group = natural.groups();
     let mut energy = natural.shapes.component_mul(&(bodies.mass * natural.shapes)) * 100.0;
     let purity = averaged(&mut energy, &group);
-    let mut strain: Vec<Vec<f64>> = bodies
-        .deflections
-        .iter()
-        .zip(&along)
-        .map(|(deflection, along)| {
-            let squares = (deflection * natural.shapes).map(|part| part * part);
-            (0..N).map(|mode| (0..3).map(|k| along[k] * squares[(k, mode)]).sum()).collect()
-        })
-        .collect();
+    let mut strain = vec![vec![0.0; N]; bodies.powertrain.all_mounts().count()];
+    let springs = bodies.powertrain.all_springs().zip(bodies.deflections).zip(&along);
+    for ((spring, deflection), along) in springs {
+        let squares = (deflection * natural.shapes).map(|part| part * part);
+        for (mode, sum) in strain[spring.owner].iter_mut().enumerate() {
+            *sum += (0..3).map(|k| along[k] * squares[(k, mode)]).sum::<f64>();
+        }
+    }
     for mode in 0..N {
         let sum: f64 = strain.iter().map(|row| row[mode]).sum();
         // No mount is deflected in a free motion.
@@ -391,9 +390,9 @@ pub(crate) fn dynamic(
     }
     let omega = frequency.map(|frequency| frequency * TAU);
     let stiffnesses = stiffnesses(powertrain, omega.unwrap_or(0.0), "the frequency given")?;
-    for (mount, along) in powertrain.all_mounts().zip(&stiffnesses) {
+    for (spring, along) in powertrain.all_springs().zip(&stiffnesses) {
         if let Some(negative) = along.iter().find(|k| k.re < 0.0) {
-            let argument = format!("stiffness of mount {:?}", mount.name());
+            let argument = format!("stiffness of mount {:?}", spring.mount.name());
             let hint = "is below zero at this frequency: modes are those of another one";
             return Err(Error::figure(argument, negative.re, hint));
         }
@@ -401,9 +400,9 @@ pub(crate) fn dynamic(
     Ok((omega, stiffnesses))
 }
 
-/// Complex stiffnesses of all mounts at an angular speed; of a subframe's after the others.
+/// Complex stiffnesses of all springs at an angular speed; of a subframe's after the others.
 fn stiffnesses(powertrain: &Powertrain, omega: f64, point: &str) -> Result<Vec<[Complex64; 3]>> {
-    powertrain.all_mounts().map(|mount| mount.stiffness_at(omega, || point.into())).collect()
+    powertrain.all_springs().map(|spring| spring.stiffness_at(omega, || point.into())).collect()
 }
 
 /// Loss factor and frequency, Hz, of the complex eigenvalues of each mode.
@@ -414,7 +413,7 @@ fn damped<const N: usize>(
     given: &[[Complex64; 3]],
 ) -> Result<(Vec<f64>, Vec<f64>)> {
     let powertrain = bodies.powertrain;
-    let at_own = omega.is_none() && powertrain.all_mounts().any(|m| m.dynamic().damping_varies());
+    let at_own = omega.is_none() && powertrain.all_springs().any(|s| s.dynamic().damping_varies());
     let any = natural.omega[N - 1];
     let mut pencil = Vec::new();
     let (mut loss, mut frequency) = (vec![0.0; N], vec![0.0; N]);

@@ -46,6 +46,15 @@ pub struct MountFigures {
     /// Measured dynamic stiffness, in place of the figures above.
     #[serde(default, skip_serializing_if = "is_default")]
     pub table: Option<Table>,
+    /// Stiffness about its axes, N·m/rad, besides what their places make.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rotational_stiffness: [f64; 3],
+    /// Imaginary over real part of that in motion.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rotational_loss_factor: [f64; 3],
+    /// Viscous damping about its axes, N·m·s/rad.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rotational_damping: [f64; 3],
 }
 
 /// A mount, checked.
@@ -54,6 +63,8 @@ pub struct Mount {
     figures: MountFigures,
     axes: Matrix3<f64>,
     dynamic: Dynamic,
+    /// About the axes, where it resists rotation.
+    rotation: Option<Dynamic>,
 }
 
 impl Mount {
@@ -70,7 +81,14 @@ impl Mount {
         }
         let dynamic = figures.dynamic()?;
         dynamic.check()?;
-        Ok(Self { figures, axes, dynamic })
+        let rotation = figures.rotation()?;
+        Ok(Self { figures, axes, dynamic, rotation })
+    }
+
+    /// Stiffness about its axes, N·m/rad, where it resists rotation: the same at any frequency but for its damping.
+    #[must_use]
+    pub fn rotation(&self) -> Option<&Dynamic> {
+        self.rotation.as_ref()
     }
 
     /// The figures.
@@ -148,6 +166,26 @@ impl MountFigures {
     #[must_use]
     pub fn in_motion(&self) -> [f64; 3] {
         self.dynamic_stiffness.unwrap_or(self.stiffness)
+    }
+
+    /// Stiffness about its axes, if it has any.
+    fn rotation(&self) -> Result<Option<Dynamic>> {
+        let figures = [
+            ("rotational_stiffness", self.rotational_stiffness),
+            ("rotational_loss_factor", self.rotational_loss_factor),
+            ("rotational_damping", self.rotational_damping),
+        ];
+        for (name, about) in figures {
+            if let Some((axis, wrong)) =
+                (0..).zip(about).find(|(_, v)| limits::not_negative("", *v).is_err())
+            {
+                limits::not_negative(&format!("{name}[{axis}]"), wrong)?;
+            }
+        }
+        let [(_, stiffness), (_, loss_factor), (_, damping)] = figures;
+        let is_none = stiffness == [0.0; 3] && damping == [0.0; 3];
+        let about = Dynamic::Constant { stiffness, loss_factor, damping, track: None };
+        Ok((!is_none).then_some(about))
     }
 
     fn dynamic(&self) -> Result<Dynamic> {

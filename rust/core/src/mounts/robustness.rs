@@ -109,11 +109,11 @@ fn evaluated<const N: usize>(
     let along = &search.along;
     let nominal = natural(&bodies, along);
     let scaled = |sign: f64| -> Vec<[f64; 3]> {
-        let shares = tolerances.stiffness.iter().copied().chain(std::iter::repeat(0.0));
-        along
-            .iter()
-            .zip(shares)
-            .map(|(along, share)| along.map(|k| k * (1.0 + sign * share)))
+        // A subframe's mounts have none.
+        let share = |owner: usize| tolerances.stiffness.get(owner).copied().unwrap_or(0.0);
+        let springs = powertrain.all_springs().zip(along);
+        springs
+            .map(|(spring, along)| along.map(|k| k * (1.0 + sign * share(spring.owner))))
             .collect()
     };
     let by_stiffness = [-1.0, 1.0].map(|sign| natural(&bodies, &scaled(sign)).frequency().to_vec());
@@ -179,7 +179,7 @@ struct PuritySearch<'a, const N: usize> {
     bodies: &'a Bodies<'a, N>,
     /// Stiffness of all mounts.
     along: Vec<[f64; 3]>,
-    /// Mounts and axes that vary together, and their tolerance.
+    /// Springs and axes that vary together, and their tolerance.
     parameters: Vec<(Vec<(usize, usize)>, f64)>,
     cancel: &'a Cancel,
 }
@@ -193,7 +193,10 @@ impl<'a, const N: usize> PuritySearch<'a, N> {
     ) -> Result<Self> {
         let mut parameters = Vec::new();
         for (mount, &share) in tolerances.stiffness.iter().enumerate().filter(|one| *one.1 > 0.0) {
-            let axes = (0..3).filter(|&axis| along[mount][axis] > 0.0).map(|axis| (mount, axis));
+            let springs = bodies.powertrain.springs().enumerate();
+            let own = springs.filter(|(_, spring)| spring.owner == mount).map(|(k, _)| k);
+            let axes = own.flat_map(|spring| (0..3).map(move |axis| (spring, axis)));
+            let axes = axes.filter(|&(spring, axis)| along[spring][axis] > 0.0);
             if tolerances.by_axis {
                 parameters.extend(axes.map(|place| (vec![place], share)));
             } else {
@@ -213,9 +216,9 @@ impl<'a, const N: usize> PuritySearch<'a, N> {
         Ok(Self { bodies, along, parameters, cancel })
     }
 
-    /// Factors of the stiffness of each mount along its axes.
+    /// Factors of the stiffness of each spring.
     fn factors(&self, point: &[f64]) -> Vec<[f64; 3]> {
-        let mut factors = vec![[1.0; 3]; self.along.len()]; // bounded: mounts of two bodies
+        let mut factors = vec![[1.0; 3]; self.along.len()]; // bounded: springs of two bodies
         for ((places, share), at) in self.parameters.iter().zip(point) {
             for &(mount, axis) in places {
                 factors[mount][axis] = 1.0 + share * at;

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector6;
 
-use super::{Mount, Powertrain, modes};
+use super::{Powertrain, Spring, modes};
 use crate::numbers::error::Result;
 
 /// Reaction of mounts to a roll about the torque roll axis, in coordinates of unit mass.
@@ -16,7 +16,7 @@ use crate::numbers::error::Result;
 pub struct RollReaction {
     /// Direction u of a torque of the crank.
     pub torque: Vector6<f64>,
-    /// What a stiffness of 1 N/m of each axis of each mount adds to K̃u.
+    /// What a stiffness of 1 N/m of each axis of each mount, and of 1 N·m/rad about them, adds to K̃u.
     pub of_axes: Vec<[Vector6<f64>; 3]>,
     /// K̃u with the mounts' dynamic stiffness, without loss.
     pub sum: Vector6<f64>,
@@ -28,8 +28,8 @@ impl Powertrain {
         let unit = self.unit_mass()?;
         let torque: Vector6<f64> = unit.row(5).transpose().normalize();
         let mut sum = Vector6::zeros();
-        let of_mount = |(mount, deflection): (&Mount, &nalgebra::Matrix3x6<f64>)| {
-            let (rows, stiffness) = (deflection * unit, mount.figures().in_motion());
+        let of_spring = |(spring, deflection): (Spring<'_>, &nalgebra::Matrix3x6<f64>)| {
+            let (rows, stiffness) = (deflection * unit, spring.in_motion());
             [0, 1, 2].map(|axis| {
                 let row: Vector6<f64> = rows.row(axis).transpose();
                 let reaction = row * row.dot(&torque);
@@ -37,7 +37,7 @@ impl Powertrain {
                 reaction
             })
         };
-        let of_axes = self.mounts.iter().zip(&self.deflections).map(of_mount).collect();
+        let of_axes = self.springs().zip(&self.deflections).map(of_spring).collect();
         Ok(RollReaction { torque, of_axes, sum })
     }
 

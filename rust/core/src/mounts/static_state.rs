@@ -69,9 +69,13 @@ fn bodies_at_rest<const N: usize>(
         let (motion, rounding) = modes.flexed(bodies, load);
         let moved = nonzero(&motion, &rounding, motion.amax());
         displacement[cause] = std::array::from_fn(|k| moved[k]);
-        let mounts = powertrain.all_mounts().enumerate().zip(&stiffnesses);
-        let pairs: Vec<_> =
-            mounts.map(|(mount, along)| bodies.force(mount, along, [&motion, &rounding])).collect();
+        let springs = powertrain.all_springs().enumerate().zip(&stiffnesses);
+        let mounts = springs.filter(|((_, spring), _)| !spring.is_rotation);
+        let pairs: Vec<_> = mounts
+            .map(|((k, spring), along)| {
+                bodies.force((k, spring.mount), along, [&motion, &rounding])
+            })
+            .collect();
         let largest = pairs.iter().map(|[force, _]| force.amax()).fold(0.0, f64::max);
         let forces = pairs.iter().map(|[force, bound]| nonzero(force, bound, largest).into());
         force[cause] = forces.collect();

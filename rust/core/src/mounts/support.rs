@@ -7,7 +7,9 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3x6, SMatrix, Vector3};
 
-use super::{ComplexVector6, LEAST_PIVOT, Powertrain, assembled, complex, motion_of_point};
+use super::{
+    ComplexVector6, LEAST_PIVOT, Powertrain, assembled, complex, motion_of_point, rotation_of,
+};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -191,6 +193,10 @@ impl Powertrain {
                 let hint = "give a subframe whose mounts stand on what does not move";
                 return Err(Error::value("support", "a subframe on a support", hint));
             }
+            Support::Subframe(subframe) if !subframe.forces.is_empty() => {
+                let hint = "give them to the powertrain that it carries";
+                return Err(Error::value("support", "a subframe with forces", hint));
+            }
             Support::Subframe(subframe) => {
                 let cg = subframe.body.cg();
                 let mut both = |above: &Matrix3x6<f64>, below: &Matrix3x6<f64>| {
@@ -199,12 +205,28 @@ impl Powertrain {
                     row.fixed_view_mut::<3, 6>(0, 6).copy_from(below);
                     self.of_both.push(row);
                 };
-                for (mount, above) in self.mounts.iter().zip(&self.deflections) {
-                    both(above, &-(mount.axes() * motion_of_point(&(mount.at() - cg))));
+                let count = self.mounts.len();
+                for (k, above) in self.deflections.iter().enumerate() {
+                    let below = if let Some(place) = k.checked_sub(count) {
+                        rotation_of(&self.mounts[self.rotations[place]])
+                    } else {
+                        let mount = &self.mounts[k];
+                        mount.axes() * motion_of_point(&(mount.at() - cg))
+                    };
+                    both(above, &-below);
                 }
                 for below in &subframe.deflections {
                     both(&Matrix3x6::zeros(), below);
                 }
+            }
+            Support::Receptance(_) if !self.rotations.is_empty() => {
+                let name = self.mounts[self.rotations[0]].name();
+                let hint = "has no rotations, which mounts with rotational_stiffness or rotational_damping resist";
+                return Err(Error::value(
+                    "support",
+                    format!("a receptance under mount {name:?}"),
+                    hint,
+                ));
             }
             Support::Receptance(receptance) => {
                 for (k, (name, axis)) in receptance.coordinates.iter().enumerate() {

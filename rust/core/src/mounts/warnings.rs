@@ -7,11 +7,11 @@ use crate::numbers::figure::significant;
 /// Part of the largest principal moment that rounding lets the sum of the others lack.
 const MOST_MISSING: f64 = 1e-9;
 /// Distance of a centre of gravity or a mount from the crank, m, above which it is not in metres.
-const FARTHEST_MOUNT: f64 = 5.0;
-/// Radii of gyration, m, of bodies from a model engine to a ship's; others are in other units.
-const GYRATION: [f64; 2] = [1e-3, 5.0];
-/// Stiffness of a mount, N/m, below and above which it is likely not in N/m.
-const STIFFNESS: [f64; 2] = [1e3, 1e9];
+const FARTHEST_MOUNT: f64 = 20.0;
+/// Radii of gyration, m, of bodies from a model engine to the block under a ship's; others are in other units.
+const GYRATION: [f64; 2] = [1e-3, 20.0];
+/// Stiffness of a mount, N/m, below and above which it is likely not in N/m: soil under a large block reaches 1e11.
+const STIFFNESS: [f64; 2] = [1e3, 1e12];
 /// Mass of a body over the product of its radii of gyration, kg/m³, that none of osmium reaches.
 ///
 /// Of all bodies of one density a ball has the most: 16.7 times the density.

@@ -1,5 +1,6 @@
 //! Numbers, and what every computation with them needs: errors, limits, cancellation, threads, memory.
 
+pub mod amplitudes;
 pub mod angle;
 pub mod cancel;
 pub(crate) mod chebyshev;

@@ -110,8 +110,8 @@ struct Shared<'a> {
 }
 
 /// Evaluate the designs of a powertrain that variations make.
-pub fn design_responses(
-    engine: &Engine,
+pub fn design_responses<'a>(
+    engine: impl Into<Option<&'a Engine>>,
     base: &Powertrain,
     variations: &[Variation],
     request: &DesignRequest,
@@ -135,7 +135,7 @@ pub fn design_responses(
             limits::finite(&format!("at[{k}]"), place)?;
         }
     }
-    let shared = Shared::new(engine, base, variations, request, cancel)?;
+    let shared = Shared::new(engine.into(), base, variations, request, cancel)?;
     let (orders, mounts) = (shared.loads.orders.len(), base.mounts().len());
     let quantities = 1 + usize::from(request.mount_forces) * mounts + request.points.len();
     let hint = "give fewer designs, orders or quantities";
@@ -196,14 +196,13 @@ fn varied(base: &Powertrain, variations: &[Variation], design: usize) -> Result<
 
 impl<'a> Shared<'a> {
     fn new(
-        engine: &Engine,
+        engine: Option<&Engine>,
         base: &Powertrain,
         variations: &[Variation],
         request: &DesignRequest<'a>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads =
-            EngineLoads::new(engine, base.body().cg(), request.rpm, request.orders, cancel)?;
+        let loads = EngineLoads::new(engine, base, request.rpm, request.orders, cancel)?;
         let (amplitudes, speeds) = (loads.amplitudes()?, &loads.omega);
         let (lanes, orders) = (speeds.len().div_ceil(LANES), amplitudes.len());
         let is_varying = |&k: &usize| base.mounts()[k].dynamic().constant().is_none();

@@ -43,8 +43,8 @@ pub enum MountObjective {
 /// Objectives of an engine on mounts that vary.
 #[derive(Debug, Clone)]
 pub struct MountObjectives {
-    /// The engine.
-    pub engine: Engine,
+    /// The engine, if there is one.
+    pub engine: Option<Engine>,
     /// The mounts, as far as they do not vary.
     pub base: Powertrain,
     /// Indices of mounts, and what varies of them.
@@ -83,6 +83,7 @@ impl MountObjectives {
             mounts[place] = Mount::new(figures)?;
         }
         let powertrain = Powertrain::new(*self.base.body(), mounts)?;
+        let powertrain = powertrain.with_forces(self.base.forces().to_vec())?;
         match self.base.support() {
             Some(support) => powertrain.on(support.clone()),
             None => Ok(powertrain),
@@ -106,7 +107,7 @@ impl MountObjectives {
             };
             let (orders, moving) = (vec![order], Arc::clone(&powertrain));
             let given = Orders::Given(orders.clone());
-            let response = Response::new(&self.engine, moving, &self.rpm, &given, cancel)?;
+            let response = Response::new(self.engine.as_ref(), moving, &self.rpm, &given, cancel)?;
             let forces = if of_mounts {
                 response.mount_forces(cancel)?
             } else {

@@ -13,8 +13,9 @@ use crate::engine::Engine;
 use crate::load::{Group, GroupIndex, Scene};
 use crate::mounts::equations::{Equations, LANES, lanes, rows};
 use crate::mounts::{
-    ComplexVector6, Levels, Powertrain, State, Support, grade, motion_of_point, natural_at,
+    ComplexVector6, ForceTable, Levels, Powertrain, State, Support, grade, moved, natural_at,
 };
+use crate::numbers::amplitudes::Amplitudes;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::List;
@@ -57,6 +58,8 @@ pub(crate) struct EngineLoads {
     groups: List<GroupIndex, Group>,
     /// At each order of each group, over what it scales with.
     unit: Vec<Wrench>,
+    /// Of tables of forces at each order, over the square of the angular speed, and those of any speed.
+    of_tables: Vec<[ComplexVector6; 2]>,
 }
 
 /// One order at one speed.
@@ -67,6 +70,8 @@ struct OrderAtSpeed<'a> {
     motion: &'a ComplexVector6,
     stiffnesses: &'a [[Complex64; 3]],
     carriers: &'a [Vector3<Complex64>],
+    /// Rotation of a subframe.
+    turned: Option<Vector3<Complex64>>,
 }
 
 /// What the motion of a point is: displacement, or its first or second derivative by time.
@@ -89,14 +94,59 @@ fn load(wrench: &Wrench) -> ComplexVector6 {
 }
 
 impl EngineLoads {
-    /// Those of an engine at some speeds.
+    /// Those of an engine, if there is one, and of the tables of forces on a body at some speeds.
     pub fn new(
-        engine: &Engine,
-        cg: Vector3<f64>,
+        engine: Option<&Engine>,
+        powertrain: &Powertrain,
         rpm: &[f64],
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
+        let (cg, tables) = (powertrain.body().cg(), powertrain.forces());
+        let mut loads = match engine {
+            Some(engine) => Self::of_engine(engine, cg, rpm, orders, cancel)?,
+            None if tables.is_empty() => {
+                let hint = "nothing shakes the body: give an engine, or a table of forces";
+                return Err(Error::value("engine", "None", hint));
+            }
+            None => Self::at_speeds(rpm)?,
+        };
+        if tables.is_empty() {
+            return Ok(loads);
+        }
+        let mut all = match orders {
+            Orders::Given(orders) => orders.clone(),
+            Orders::Auto { .. } => {
+                let of_tables = tables.iter().flat_map(ForceTable::orders);
+                loads.orders.iter().copied().chain(of_tables).collect()
+            }
+        };
+        if matches!(orders, Orders::Auto { .. }) {
+            all.sort_unstable();
+            all.dedup();
+        }
+        let groups = loads.groups.len();
+        let mut unit = memory::with_capacity(all.len() * groups)?;
+        for order in &all {
+            match loads.orders.iter().position(|own| own == order) {
+                Some(k) => unit.extend_from_slice(&loads.unit[k * groups..(k + 1) * groups]),
+                None => unit.extend(std::iter::repeat_n(Wrench::default(), groups)),
+            }
+        }
+        let of_tables = all.iter().map(|order| {
+            tables.iter().fold([ComplexVector6::zeros(); 2], |[by_square, stays], table| {
+                let own = table.loads(*order, cg);
+                [by_square + own[0], stays + own[1]]
+            })
+        });
+        loads.of_tables = memory::collected(of_tables)?;
+        loads.omitted.retain(|order| !all.contains(order));
+        (loads.orders, loads.unit) = (all, unit);
+        Ok(loads)
+    }
+
+    /// No loads at some speeds.
+    fn at_speeds(rpm: &[f64]) -> Result<Self> {
         limits::axis_length("rpm", rpm.len())?;
         if rpm.is_empty() {
             return Err(Error::value("rpm", "[]", "give at least one speed"));
@@ -105,82 +155,143 @@ impl EngineLoads {
         for &rpm in rpm {
             omega.push(angular_speed(rpm)?);
         }
+        Ok(Self {
+            orders: Vec::new(),
+            omitted: Vec::new(),
+            error_bound: ErrorBounds::default(),
+            omega,
+            groups: List::new(Vec::new()),
+            unit: Vec::new(),
+            of_tables: Vec::new(),
+        })
+    }
+
+    /// Those of an engine at some speeds.
+    fn of_engine(
+        engine: &Engine,
+        cg: Vector3<f64>,
+        rpm: &[f64],
+        orders: &Orders,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let mut own = Self::at_speeds(rpm)?;
         engine.check_speeds(rpm)?;
         let loads = Scene::of(engine, Some(cg.z))?;
         let torque = engine.spectrum().is_none();
         let chosen = choice::evaluated(&loads, orders, torque, cancel)?;
-        let (mut kept, mut unit) = (Vec::new(), Vec::new());
         for (order, wrenches) in chosen.kept() {
-            kept.push(order);
-            unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
+            own.orders.push(order);
+            own.unit.extend(wrenches.iter().map(|wrench| wrench.moved([cg.x, cg.y, 0.0])));
         }
-        Ok(Self {
-            orders: kept,
-            omitted: chosen.omitted(),
-            error_bound: chosen.error_bound(&loads, &omega).moved([cg.x, cg.y, 0.0]),
-            omega,
-            groups: loads.groups.clone(),
-            unit,
-        })
+        own.omitted = chosen.omitted();
+        own.error_bound = chosen.error_bound(&loads, &own.omega).moved([cg.x, cg.y, 0.0]);
+        own.groups = loads.groups.clone();
+        Ok(own)
+    }
+
+    /// Wrenches of the engine's groups at each order.
+    fn of_orders(&self) -> impl Iterator<Item = &[Wrench]> {
+        let count = self.groups.len();
+        (0..self.orders.len()).map(move |k| &self.unit[k * count..(k + 1) * count])
     }
 
     /// Loads of each order at a speed, rad/s.
     fn at_speed(&self, omega: f64) -> impl Iterator<Item = ComplexVector6> {
         let factors = self.groups.map_to(|group| group.scaling.factor(omega));
-        self.unit.chunks(self.groups.len()).map(move |of_order| {
+        self.of_orders().enumerate().map(move |(k, of_order)| {
             let scaled =
                 of_order.iter().zip(&factors).map(|(wrench, factor)| wrench.scaled(*factor));
-            load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)))
+            let of_engine = load(&scaled.fold(Wrench::default(), |sum, one| sum.plus(&one)));
+            self.of_tables.get(k).map_or(of_engine, |[by_square, stays]| {
+                of_engine + by_square * Complex64::from(omega * omega) + stays
+            })
         })
     }
 
-    /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
-    pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
-        let of_order = |(wrenches, order): (&[Wrench], &Order)| {
+    /// Load of each order over ω², and what does not scale with speed; rejects other loads, in which `hint` says why.
+    fn by_scaling(&self, hint: &str) -> Result<Vec<[ComplexVector6; 2]>> {
+        let of_order = |(k, wrenches): (usize, &[Wrench])| {
             let mut sums = [Wrench::default(); 2];
             for (group, wrench) in self.groups.iter().zip(wrenches) {
                 let sum = match group.scaling {
                     Scaling::SpeedSquared => &mut sums[0],
                     Scaling::Independent => &mut sums[1],
                     Scaling::Row(_) => {
-                        let hint = "designs of mounts count loads that scale with the square of speed \
-                                    or not at all, no tables over speed";
                         return Err(Error::value("loads", format!("{:?}", group.name), hint));
                     }
                 };
                 *sum = sum.plus(wrench);
             }
             let [by_square, fixed] = sums.map(|sum| load(&sum));
-            Ok([by_square / Complex64::from(order.number().powi(2)), fixed])
+            let [more, stays] = self.of_tables.get(k).copied().unwrap_or_default();
+            Ok([by_square + more, fixed + stays])
         };
-        let of_orders = self.unit.chunks(self.groups.len()).zip(&self.orders);
-        of_orders.map(of_order).collect()
+        self.of_orders().enumerate().map(of_order).collect()
     }
+
+    /// Load of each order over (nω)², and what does not scale with speed; rejects other loads.
+    pub fn amplitudes(&self) -> Result<Vec<[ComplexVector6; 2]>> {
+        let hint = "designs of mounts count loads that scale with the square of speed or not at all, no tables \
+                    over speed";
+        let over = |([by_square, fixed], order): ([ComplexVector6; 2], &Order)| {
+            [by_square / Complex64::from(order.number().powi(2)), fixed]
+        };
+        Ok(self.by_scaling(hint)?.into_iter().zip(&self.orders).map(over).collect())
+    }
+}
+
+/// The forces and moments of an engine about a point at a speed, rpm, as a table.
+pub fn force_table(
+    engine: &Engine,
+    rpm: f64,
+    orders: &Orders,
+    about: [f64; 3],
+    cancel: &Cancel,
+) -> Result<ForceTable> {
+    for (k, along) in about.into_iter().enumerate() {
+        limits::finite(&format!("about[{k}]"), along)?;
+    }
+    let loads = EngineLoads::of_engine(engine, about.into(), &[rpm], orders, cancel)?;
+    let hint =
+        "a table has loads that scale with the square of speed or not at all, no tables over speed";
+    let (mut speed_squared, mut independent) = (Amplitudes::default(), Amplitudes::default());
+    let square = Complex64::from(loads.omega[0] * loads.omega[0]);
+    for (order, [by_square, fixed]) in loads.orders.iter().zip(loads.by_scaling(hint)?) {
+        let both = [(&mut speed_squared, by_square * square), (&mut independent, fixed)];
+        for (amplitudes, load) in both {
+            if load != ComplexVector6::zeros() {
+                let row = load.iter().copied().chain([Complex64::ZERO]).collect();
+                amplitudes.0.push((order.halves(), row));
+            }
+        }
+    }
+    let name = engine.name().to_owned();
+    ForceTable { name, rpm, about, speed_squared, independent }.checked("")
 }
 
 impl Response {
     /// Motion at each speed, rpm, in each order of the engine's balance.
-    pub fn new(
-        engine: &Engine,
+    pub fn new<'a>(
+        engine: impl Into<Option<&'a Engine>>,
         powertrain: Arc<Powertrain>,
         rpm: &[f64],
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut response = Self::at_rest(engine, powertrain, rpm, orders, cancel)?;
+        let mut response = Self::at_rest(engine.into(), powertrain, rpm, orders, cancel)?;
         response.solve(rpm, cancel)?;
         Ok(response)
     }
 
     /// Loads of the engine, and no motion.
     fn at_rest(
-        engine: &Engine,
+        engine: Option<&Engine>,
         powertrain: Arc<Powertrain>,
         rpm: &[f64],
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let of_engine = EngineLoads::new(engine, powertrain.body().cg(), rpm, orders, cancel)?;
+        let of_engine = EngineLoads::new(engine, &powertrain, rpm, orders, cancel)?;
         let count = of_engine.orders.len();
         let hint = "give fewer speeds or orders";
         limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
@@ -370,20 +481,7 @@ impl Response {
     #[must_use]
     pub fn about(&self, point: [f64; 3], loads: &[ComplexVector6]) -> Vec<ComplexVector6> {
         let arm = self.powertrain.body().cg() - Vector3::from(point);
-        let arms = motion_of_point(&arm).transpose();
-        let about = |load: &ComplexVector6| {
-            let force = load.fixed_rows::<3>(0);
-            let mut sum = arms.map(Complex64::from) * force;
-            let size = arms.abs() * force.map(Complex64::norm);
-            for k in 3..6 {
-                sum[k] += load[k];
-                // What rounding leaves of moments that cancel is none.
-                let bound = 8.0 * f64::EPSILON * (size[k] + load[k].norm());
-                sum[k] = snapped(sum[k], bound);
-            }
-            sum
-        };
-        loads.iter().map(about).collect() // bounded: as many as there are loads
+        loads.iter().map(|load| moved(load, &arm)).collect() // bounded: as many as there are loads
     }
 
     /// Displacement of the CG, m, and rotation, rad, at each speed and order.
@@ -405,7 +503,7 @@ impl Response {
             }
             // Within tables: they were read for the motion. At rest of a load that is zero nothing moves.
             let stiffnesses = if *motion == ComplexVector6::zeros() {
-                vec![[Complex64::ZERO; 3]; count]
+                vec![[Complex64::ZERO; 3]; self.powertrain.deflections().len()] // bounded: springs
             } else {
                 self.stiffnesses(point, f64::NAN)?
             };
@@ -415,9 +513,20 @@ impl Response {
                 motion,
                 stiffnesses: &stiffnesses,
                 carriers: self.carriers.get(point * count..(point + 1) * count).unwrap_or_default(),
+                turned: self.subframe.get(point).map(|moved| moved.fixed_rows::<3>(3).into()),
             })?;
         }
         Ok(())
+    }
+
+    /// Displacement of what carries a spring, or its rotation; none where it does not move.
+    fn carrier<'a>(
+        &self,
+        spring: usize,
+        point: &'a OrderAtSpeed,
+    ) -> Option<&'a Vector3<Complex64>> {
+        let is_rotation = spring >= self.powertrain.mounts().len();
+        if is_rotation { point.turned.as_ref() } else { point.carriers.get(spring) }
     }
 
     /// Force of a mount on what carries it.
@@ -446,7 +555,7 @@ impl Response {
         self.for_each(cancel, |point| {
             let mut sum = ComplexVector6::zeros();
             for (k, deflection) in self.powertrain.deflections().iter().enumerate() {
-                let moved = self.powertrain.deflection(k, point.motion, point.carriers.get(k));
+                let moved = self.powertrain.deflection(k, point.motion, self.carrier(k, point));
                 let along = Vector3::from(point.stiffnesses[k]).component_mul(&moved);
                 sum += deflection.transpose().map(Complex64::from) * along;
             }
@@ -512,17 +621,18 @@ impl Response {
         let mut rows = memory::with_capacity(self.motions.len())?;
         self.for_each(cancel, |point| {
             let velocity = point.motion * Complex64::new(0.0, point.omega);
-            let mut row = memory::with_capacity(2 + point.stiffnesses.len())?;
-            row.push(0.5 * point.load.dotc(&velocity).re);
-            row.push(0.0);
-            for (mount, along) in point.stiffnesses.iter().enumerate() {
-                let carrier = point.carriers.get(mount);
-                let moved = self.powertrain.deflection(mount, point.motion, carrier);
+            let mut row = memory::zeros(2 + self.powertrain.mounts().len())?;
+            row[0] = 0.5 * point.load.dotc(&velocity).re;
+            for (k, (spring, along)) in self.powertrain.springs().zip(point.stiffnesses).enumerate()
+            {
+                let carrier = self.carrier(k, point);
+                let moved = self.powertrain.deflection(k, point.motion, carrier);
                 let parts = moved.iter().zip(along);
                 let lost: f64 = parts.map(|(part, k)| k.im * part.norm_sqr()).sum();
-                row.push(0.5 * point.omega * lost);
+                row[2 + spring.owner] += 0.5 * point.omega * lost;
                 if let Some(carrier) = carrier {
-                    let force = Vector3::from(self.force(mount, point));
+                    let force = self.powertrain.force_on_support(spring.owner, along, &moved);
+                    let force = Vector3::from(force);
                     let velocity = carrier * Complex64::new(0.0, point.omega);
                     row[1] += 0.5 * force.dotc(&velocity).re;
                 }

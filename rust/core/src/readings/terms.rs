@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::Complex64;
     use crate::Spectrum;
-    use crate::engine::periodic::{ActsOn, Amplitudes, PeriodicLoad};
+    use crate::engine::{ActsOn, Amplitudes, PeriodicLoad};
     use crate::load::tests::engine;
     use crate::readings::balance::{Orders, Vector, balance};
     use crate::readings::quantity::Part;

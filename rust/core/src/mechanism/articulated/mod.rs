@@ -9,6 +9,7 @@
 //! the crankpin's own, so that odd orders keep their relative accuracy where knuckle and bore nearly agree, and are
 //! zero where they do.
 
+pub mod equal;
 mod jet;
 mod strip;
 pub mod table;
@@ -194,6 +195,24 @@ impl Linkage {
         upright.times(self.radius * knuckle.re)
             + lean.times(-(self.radius * knuckle.im))
             + across.leg(self.rod)
+    }
+
+    /// Degrees at which the piston is highest, and lowest.
+    fn turning_points_deg(&self) -> [f64; 2] {
+        [1.0, -1.0].map(|side| {
+            let at = |degrees: f64| self.motion(&CrankPosition::at_degrees(degrees));
+            let height = |degrees: &f64| side * at(*degrees).position;
+            let whole = (-90..270).map(f64::from);
+            let start = whole.max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(0.0);
+            let (mut low, mut high) = (start - 1.0, start + 1.0);
+            for _ in 0..60 {
+                let middle = f64::midpoint(low, high);
+                *(if side * at(middle).velocity > 0.0 { &mut low } else { &mut high }) = middle;
+            }
+            let degrees = f64::midpoint(low, high);
+            // At 0° where rounding alone parts it.
+            if (degrees - start).abs() < 1e-13 { start } else { degrees }
+        })
     }
 
     /// Amplitudes of the force, over m·r·ω²: those of even and of odd orders of samples of half a turn.
@@ -472,20 +491,7 @@ impl Mechanism for Articulated {
     }
 
     fn turning_points_deg(&self) -> [f64; 2] {
-        [1.0, -1.0].map(|side| {
-            let at = |degrees: f64| self.motion(&CrankPosition::at_degrees(degrees));
-            let height = |degrees: &f64| side * at(*degrees).position;
-            let whole = (-90..270).map(f64::from);
-            let start = whole.max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(0.0);
-            let (mut low, mut high) = (start - 1.0, start + 1.0);
-            for _ in 0..60 {
-                let middle = f64::midpoint(low, high);
-                *(if side * at(middle).velocity > 0.0 { &mut low } else { &mut high }) = middle;
-            }
-            let degrees = f64::midpoint(low, high);
-            // At 0° where rounding alone parts it.
-            if (degrees - start).abs() < 1e-13 { start } else { degrees }
-        })
+        self.linkage.turning_points_deg()
     }
 
     fn travel(&self) -> f64 {

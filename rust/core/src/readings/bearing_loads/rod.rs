@@ -207,7 +207,7 @@ impl DrivenRod {
             let of_master = CrankPosition::new(of_master.im, of_master.re);
             hangs.inertia(&crank, hangs.master.motion(&of_master).acceleration)
         });
-        self.forces(&crank, &[acceleration, slope, secant, swing], gas, (links, at_knuckle))
+        self.forces(&crank, &[acceleration, slope, secant, swing], gas, Some((links, at_knuckle)))
     }
 
     /// A vector x + iy along u and w.
@@ -264,21 +264,24 @@ impl DrivenRod {
         crank: &CrankPosition,
         &[acceleration, slope, secant, swing]: &[f64; 4],
         gas: f64,
-        (links, at_knuckle): (OfLinks, Complex64),
+        linked: Option<(OfLinks, Complex64)>,
     ) -> RodForces {
         let towards_crank = gas + self.reciprocating * acceleration;
         let mut across = slope * towards_crank;
         if self.couple != 0.0 {
             across -= self.couple * secant * swing;
         }
-        across += links.across;
-        let besides = links.force + at_knuckle;
+        let mut besides = None;
+        if let Some((links, at_knuckle)) = linked {
+            across += links.across;
+            besides = Some(links.force + at_knuckle);
+        }
+        let crankpin =
+            [self.rotating * crank.cos - towards_crank, self.rotating * crank.sin + across];
         let on_wrist_pin = gas + self.piston * acceleration;
         RodForces {
-            crankpin: [
-                self.rotating * crank.cos - towards_crank + besides.re,
-                self.rotating * crank.sin + across + besides.im,
-            ],
+            crankpin: besides
+                .map_or(crankpin, |force| [crankpin[0] + force.re, crankpin[1] + force.im]),
             wrist_pin: [on_wrist_pin, -across],
             across,
             compression: (on_wrist_pin + slope * across) / secant,
@@ -347,6 +350,13 @@ impl RodColumns {
         motion.lean = Some([&mut slope, &mut secant]);
         rod.mechanism.motions(&cranks, motion);
         let motions = [&acceleration, &slope, &secant, &swing];
+        if rod.hangs.is_none() && rod.links.is_empty() {
+            vectorised(
+                #[inline(always)]
+                || self.add(rod, units, motions, |_, _, _| None),
+            );
+            return;
+        }
         let mut links = Vec::new();
         for (link, share) in &rod.links {
             let mut columns = Box::new(Self::ZERO);
@@ -359,33 +369,35 @@ impl RodColumns {
             let cranks = units.cranks(rod.phase * hangs.ahead);
             hangs.master.motions(&cranks, MotionColumns::of(&mut of_master));
         }
+        let linked = |k: usize, crank: &CrankPosition, slope: f64| {
+            let mut of_links = OfLinks::default();
+            for (columns, share) in &links {
+                let [x, y] = &columns.crankpin;
+                of_links.add(rod.along_axes(Complex64::new(x[k], y[k])), *share, slope);
+            }
+            let at_knuckle = rod.hangs.as_ref().map(|hangs| hangs.inertia(crank, of_master[k]));
+            Some((of_links, at_knuckle.unwrap_or_default()))
+        };
         vectorised(
             #[inline(always)]
-            || self.add(rod, units, motions, (&links, &of_master)),
+            || self.add(rod, units, motions, linked),
         );
     }
 
+    /// With what link rods add at a place of the block, of a slope of the rod.
     #[inline(always)]
     fn add(
         &mut self,
         rod: &DrivenRod,
         units: &Units,
         motions: [&AngleColumn; 4],
-        (links, of_master): (&[(Box<Self>, Complex64)], &AngleColumn),
+        linked: impl Fn(usize, &CrankPosition, f64) -> Option<(OfLinks, Complex64)>,
     ) {
         for k in 0..BLOCK {
             let motion = motions.map(|column| column[k]);
             let crank = units.crank(rod.phase, k);
-            let mut of_links = OfLinks::default();
-            for (columns, share) in links {
-                let [x, y] = &columns.crankpin;
-                let force = rod.along_axes(Complex64::new(x[k], y[k]));
-                of_links.add(force, *share, motion[1]);
-            }
-            let hangs = rod.hangs.as_ref();
-            let at_knuckle =
-                hangs.map_or(Complex64::ZERO, |hangs| hangs.inertia(&crank, of_master[k]));
-            let forces = rod.forces(&crank, &motion, self.gas[k], (of_links, at_knuckle));
+            let linked = linked(k, &crank, motion[1]);
+            let forces = rod.forces(&crank, &motion, self.gas[k], linked);
             let pairs =
                 [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
             for ([x, y], vector) in pairs {

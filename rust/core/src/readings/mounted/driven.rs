@@ -25,15 +25,15 @@ pub struct ActuatorForces<'a> {
 
 impl Response {
     /// Motion at each speed, rpm, in each order of the engine's balance, under forces of actuators too.
-    pub fn driven(
-        engine: &Engine,
+    pub fn driven<'a>(
+        engine: impl Into<Option<&'a Engine>>,
         powertrain: Arc<Powertrain>,
         rpm: &[f64],
         orders: &Orders,
         drive: &ActuatorForces,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut response = Self::at_rest(engine, powertrain, rpm, orders, cancel)?;
+        let mut response = Self::at_rest(engine.into(), powertrain, rpm, orders, cancel)?;
         let (points, count) = (response.loads.len(), drive.actuators.len());
         let found = drive.forces.len();
         limits::same_length("forces", found, "the actuators", points * count, "speed and order")?;

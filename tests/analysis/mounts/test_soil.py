@@ -1,0 +1,305 @@
+"""Are blocks, soil and mounts that resist rotation those of other formulae?"""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+import pytest
+from analysis.mounts.test_mount_laws import random_case
+from support import in_turn
+
+G, NU, RHO = 6e7, 0.33, 1750.0
+SOIL = cp.Soil(G, NU, RHO)
+
+
+def bushings(seed: int) -> tuple[cp.Powertrain, np.ndarray]:
+    """Return a random powertrain, some of whose mounts resist rotation, and random speeds."""
+    p, rpm = random_case(seed)
+    draw = np.random.default_rng(seed + 77)
+    mounts = [
+        mount.replace(
+            rotational_stiffness=tuple(draw.choice([0.0, 2e3, 5e3], 3)),
+            rotational_loss_factor=draw.choice([0.0, 0.1]),
+            rotational_damping=tuple(draw.choice([0.0, 7.0], 3)),
+        )
+        if k % 2
+        else mount
+        for k, mount in enumerate(p.mounts)
+    ]
+    return p.replace(mounts=mounts), rpm
+
+
+def matrices(p: cp.Powertrain, omega: float) -> tuple[np.ndarray, np.ndarray]:
+    """Mass and complex stiffness about the CG, from places and axes alone."""
+    mass = p.body.mass * np.eye(6)
+    mass[3:, 3:] = p.body.inertia
+    stiffness = np.zeros((6, 6), dtype=complex)
+    for m in p.mounts:
+        t = np.radians(m.tilt_deg or 0.0)
+        axes = np.array([[np.cos(t), np.sin(t), 0], [-np.sin(t), np.cos(t), 0], [0, 0, 1]])
+        x, y, z = np.subtract(m.at, p.body.cg)
+        shift = np.hstack([np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]]])
+        turn = np.hstack([np.zeros((3, 3)), np.eye(3)])
+        along = np.array(m.stiffness) * (1 + 1j * np.array(m.loss_factor))
+        along = along + 1j * omega * np.array(m.damping)
+        about = np.array(m.rotational_stiffness) * (1 + 1j * np.array(m.rotational_loss_factor))
+        about = about + 1j * omega * np.array(m.rotational_damping)
+        for rows, values in ((axes @ shift, along), (axes @ turn, about)):
+            stiffness += rows.T @ np.diag(values) @ rows
+    return mass, stiffness
+
+
+@in_turn("seed", range(10))
+def test_mounts_that_resist_rotation_are_matrices(seed: int) -> None:
+    p, rpm = bushings(seed)
+    mass, stiffness = matrices(p, 0.0)
+    squares = np.linalg.eigvals(np.linalg.solve(mass, stiffness.real)).real
+    frequency = np.sqrt(np.sort(squares)) / (2 * np.pi)
+    modes = p.modes()
+    np.testing.assert_allclose(modes.frequency, frequency, rtol=1e-9)
+    np.testing.assert_allclose(modes.strain.sum(axis=0), 100.0, rtol=1e-12)
+    r = p.response(rpm, orders=[1, 2])
+    for k, speed in enumerate(rpm):
+        for j, n in enumerate((1, 2)):
+            omega = n * speed * np.pi / 30
+            mass, stiffness = matrices(p, omega)
+            load = np.asarray(r.wrench)[k, j]
+            motion = np.linalg.solve(stiffness - omega**2 * mass, load)
+            found = np.asarray(r.motion)[k, j]
+            assert np.abs(found - motion).max() <= 1e-10 * np.abs(motion).max()
+            wrench = np.asarray(r.support_wrench)[k, j]
+            expected = stiffness @ motion
+            assert np.abs(wrench - expected).max() <= 1e-10 * np.abs(expected).max()
+    reactive = np.abs(r.power_in) + np.linalg.norm(r.wrench, axis=-1) * 1e-3
+    assert (np.abs(r.power_in - r.power_lost.sum(axis=-1)) <= 1e-11 * reactive).all()
+    weight = np.array([0.0, -9.80665 * p.body.mass, 0, 0, 0, -50.0])
+    state, (mass, stiffness) = p.static(50.0), matrices(p, 0.0)
+    moved = np.linalg.solve(stiffness.real, weight)
+    found = np.concatenate(
+        [state.sag + state.wind_up, np.radians(state.sag_deg + state.wind_up_deg)]
+    )
+    np.testing.assert_allclose(found, moved, rtol=1e-8, atol=1e-12 * np.abs(moved).max())
+
+
+@in_turn("seed", range(4))
+def test_tolerances_count_rotational_stiffness(seed: int) -> None:
+    p, _ = bushings(seed)
+    p = p.replace(mounts=p.mounts[:3])
+    r = p.robustness(0.19, corners="mounts")
+    np.testing.assert_allclose(r.frequency_bounds[0] / r.frequency, 0.9, rtol=1e-10)
+
+
+@in_turn("seed", range(6))
+def test_power_balances_on_a_subframe_with_bushings(seed: int) -> None:
+    above, rpm = bushings(seed)
+    below, _ = bushings(seed + 40)
+    p = above.with_support(cp.Subframe(below.body, below.mounts))
+    r = p.response(rpm, orders=[1, 2])
+    omega = np.multiply.outer(rpm, [1, 2]) * np.pi / 30
+    lost = 0.0
+    moved = np.asarray(r.subframe_motion)
+    for k, speed in enumerate(rpm):
+        for j, n in enumerate((1, 2)):
+            _, stiffness = matrices(below, n * speed * np.pi / 30)
+            q = moved[k, j]
+            lost = 0.5 * omega[k, j] * (q.conj() @ stiffness.imag @ q)
+            passed = np.asarray(r.power_passed)[k, j]
+            size = np.abs(r.power_in)[k, j] + omega[k, j] * np.linalg.norm(q) * 1e-9
+            assert abs(passed - lost) <= 1e-9 * size
+    total = r.power_lost.sum(axis=-1) + r.power_passed
+    assert (np.abs(r.power_in - total) <= 1e-10 * (np.abs(r.power_in) + 1e-9)).all()
+
+
+def test_what_cannot_carry_rotation_says_so() -> None:
+    p, _ = bushings(1)
+    h = cp.Receptance([("0", "x")], ([1.0, 100.0], np.full((2, 1, 1), 1e-7)))
+    with pytest.raises(cp.InputError, match='a receptance under mount "1": has no rotations'):
+        p.with_support(h)
+    with pytest.raises(cp.InputError, match=r"^rotational_stiffness of mount '1' is given"):
+        p.save_html("page.html")
+    with pytest.raises(cp.InputError, match=r"^rotational_damping\[2\] = -1"):
+        p.mounts[0].replace(rotational_damping=(0, 0, -1))
+
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+def test_blocks_and_machines_on_them_are_integrals() -> None:
+    block = cp.RigidBody.block(
+        width=3.0, height=1.6, length=5.0, density=2350, top=(0.2, -0.9, 1.1)
+    )
+    # Midpoints of cells: exact of first moments, of second ones to 1/n².
+    n = 40
+    x, y, z = np.meshgrid(*((np.arange(n) + 0.5) / n - 0.5 for _ in range(3)), indexing="ij")
+    at = np.stack([0.2 + 3.0 * x, -1.7 + 1.6 * y, 1.1 + 5.0 * z], axis=-1).reshape(-1, 3)
+    weight = np.full(len(at), 2350 * 3.0 * 1.6 * 5.0 / n**3)
+    machine = cp.RigidBody(9e3, (0.1, 0.3, 0.9), [[4e3, 200, 0], [200, 5e3, -90], [0, -90, 3e3]],
+                           products="tensor")  # fmt: skip
+    both = cp.RigidBody.combined(block, machine)
+    assert np.isclose(both.mass, weight.sum() + 9e3)
+    centre = (weight @ at + 9e3 * np.array(machine.cg)) / both.mass
+    np.testing.assert_allclose(both.cg, centre, rtol=1e-12)
+    arms = np.vstack([at, machine.cg]) - centre
+    masses = np.append(weight, 9e3)
+    outer = np.einsum("i,ij,ik->jk", masses, arms, arms)
+    tensor = np.trace(outer) * np.eye(3) - outer + np.array(machine.inertia)
+    np.testing.assert_allclose(both.inertia, tensor, rtol=2e-3, atol=1e-6 * tensor.max())
+    assert cp.RigidBody.combined(block) == block
+    with pytest.raises(cp.InputError, match=r"^height"):
+        cp.RigidBody.block(1, -1, 1)
+    with pytest.raises(cp.InputError, match=r"^density"):
+        cp.RigidBody.block(1, 1, 1, density=0)
+    with pytest.raises(cp.InputError, match=r"^bodies"):
+        cp.RigidBody.combined()
+
+
+# --- soil -----------------------------------------------------------------------------------------
+
+
+def six(mount: cp.Mount) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness and dashpots along and about x, y, z."""
+    stiffness = np.array([*mount.stiffness, *mount.rotational_stiffness])
+    return stiffness, np.array([*mount.damping, *mount.rotational_damping])
+
+
+def test_a_disc_has_the_springs_of_the_half_space() -> None:
+    body = cp.RigidBody.block(2, 1.5, 2)
+    (kx, ky, kz, rx, ry, rz), _ = six(SOIL.mount(body, radius=1.2, y=-1.5))
+    r = 1.2
+    # Boussinesq; Reissner and Sagoci; Borowicka; all in closed form.
+    np.testing.assert_allclose(ky, 4 * G * r / (1 - NU), rtol=1e-14)
+    np.testing.assert_allclose(ry, 16 * G * r**3 / 3, rtol=1e-14)
+    np.testing.assert_allclose([rx, rz], 8 * G * r**3 / (3 * (1 - NU)), rtol=1e-14)
+    # Mindlin's 8Gr/(2 − ν), within 3 % of Bycroft's.
+    np.testing.assert_allclose([kx, kz], 8 * G * r / (2 - NU), rtol=3e-2)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.5, 2.0, 3.0])
+def test_rectangles_are_those_of_pais_and_kausel_within_the_error_of_circles(ratio: float) -> None:
+    """Pais and Kausel, Soil Dyn. Earthq. Eng. 7 (1988) 213: 2B along x, 2L along z, static."""
+    b = 1.1
+    a = ratio * b
+    body = cp.RigidBody.block(2 * b, 1.5, 2 * a)
+    found, _ = six(SOIL.mount(body, width=2 * b, length=2 * a, y=-1.5))
+    across = G * b / (2 - NU) * (6.8 * ratio**0.65 + 0.8 * ratio + 1.6)
+    along = G * b / (2 - NU) * (6.8 * ratio**0.65 + 2.4)
+    vertical = G * b / (1 - NU) * (3.1 * ratio**0.75 + 1.6)
+    about_across = G * b**3 / (1 - NU) * (3.73 * ratio**2.4 + 0.27)
+    torsion = G * b**3 * (4.25 * ratio**2.45 + 4.06)
+    about_along = G * b**3 / (1 - NU) * (3.2 * ratio + 0.8)
+    expected = [across, vertical, along, about_across, torsion, about_along]
+    np.testing.assert_allclose(found, expected, rtol=0.14 if ratio > 2.0 else 0.09)
+
+
+def test_embedment_is_continuous_and_a_circle_is_a_rectangle_of_its_second_moments() -> None:
+    body = cp.RigidBody.block(2, 1.5, 2)
+    surface, shallow, deep = (
+        np.concatenate(six(SOIL.mount(body, radius=1.2, y=-1.5, embedment=e)))
+        for e in (0.0, 1e-9, 1.0)
+    )
+    np.testing.assert_allclose(shallow, surface, rtol=1e-8)
+    # Whitman's factors at h/r = 1/1.2, by hand; torsion has none.
+    h, v = 1 / 1.2, NU
+    k = [1 + 0.55 * (2 - v) * h, 1 + 0.6 * (1 - v) * h, 1 + 0.55 * (2 - v) * h]
+    rocking = 1 + 1.2 * (1 - v) * h + 0.2 * (2 - v) * h**3
+    c = [1 + 1.9 * (2 - v) * h, 1 + 1.9 * (1 - v) * h, 1 + 1.9 * (2 - v) * h]
+    of_rocking = 1 + 0.7 * (1 - v) * h + 0.6 * (2 - v) * h**3
+    factors = [*k, rocking, 1.0, rocking, *c, of_rocking, 1.0, of_rocking]
+    np.testing.assert_allclose(deep / surface, factors, rtol=1e-12)
+
+
+def test_bases_are_given_once() -> None:
+    body = cp.RigidBody.block(2, 1.5, 2)
+    for base in ({}, {"width": 1.0}, {"width": 1.0, "length": 1.0, "radius": 1.0}):
+        with pytest.raises(cp.InputError, match=r"^width is no base"):
+            SOIL.mount(body, y=0.0, **base)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match=r"^at = None"):
+        SOIL.mount(body, radius=1.0)
+    with pytest.raises(cp.InputError, match=r"^poisson = 0.5"):
+        cp.Soil(1e7, 0.5)
+    assert SOIL.mount(body, radius=1.0, y=-2.0).at == (0.0, -2.0, 0.0)
+    lossy = cp.Soil(G, NU, RHO, damping_ratio=0.03).mount(body, radius=1.0, y=-2.0)
+    assert lossy.loss_factor == lossy.rotational_loss_factor == (0.06, 0.06, 0.06)
+
+
+# --- worked cases of textbooks, computed again ----------------------------------------------------
+
+
+def amplitude(p: cp.Powertrain, rpm: float, order: float, component: int) -> float:
+    """Amplitude of a motion of the CG."""
+    return float(abs(np.asarray(p.response(rpm, orders=[order]).motion)[0, component]))
+
+
+def on_soil(
+    table: cp.ForceTable, body: cp.RigidBody, soil: cp.Soil, radius: float, y: float
+) -> cp.Powertrain:
+    """A body on a disc."""
+    return cp.Powertrain(table, body, [soil.mount(body, radius=radius, y=y)])
+
+
+def test_vertical_vibration_of_a_constant_force() -> None:
+    """A reciprocating compressor: one degree of freedom, Lysmer's analog."""
+    body = cp.RigidBody(90e3, (0, 0, 0), (1e5, 1e5, 1e5))
+    q, rpm, r = 18e3, 480.0, 2.0
+    p = on_soil(cp.ForceTable(rpm, None, {1: (0, q, 0, 0, 0, 0)}), body, SOIL, r, 0.0)
+    k = 4 * G * r / (1 - NU)
+    damping = 0.425 / np.sqrt((1 - NU) * 90e3 / (4 * RHO * r**3))
+    ratio = rpm * np.pi / 30 / np.sqrt(k / 90e3)
+    expected = q / k / np.hypot(1 - ratio**2, 2 * damping * ratio)
+    np.testing.assert_allclose(amplitude(p, rpm, 1, 1), expected, rtol=1e-12)
+    assert np.isclose(p.modes().frequency[[2]], np.sqrt(k / 90e3) / (2 * np.pi)).any()
+
+
+def test_vertical_vibration_of_a_rotating_mass_at_resonance() -> None:
+    """Eccentric masses: the peak m_e·e/m / (2D√(1 − D²)) at ω_n/√(1 − 2D²)."""
+    body = cp.RigidBody(200e3, (0, 0, 0), (3e5, 3e5, 3e5))
+    r, unbalance = 1.5, 30.0
+    table = cp.ForceTable(30 / np.pi, {1: (0, unbalance, 0, 0, 0, 0)})
+    p = on_soil(table, body, SOIL, r, 0.0)
+    k = 4 * G * r / (1 - NU)
+    damping = 0.425 / np.sqrt((1 - NU) * 200e3 / (4 * RHO * r**3))
+    peak = np.sqrt(k / 200e3) / np.sqrt(1 - 2 * damping**2)
+    expected = unbalance / 200e3 / (2 * damping * np.sqrt(1 - damping**2))
+    np.testing.assert_allclose(amplitude(p, peak * 30 / np.pi, 1, 1), expected, rtol=1e-12)
+
+
+def test_torsion_about_the_vertical() -> None:
+    """A pair of horizontal forces: Reissner and Sagoci's spring, B_θ = I/(ρr⁵)."""
+    inertia, r, moment, rpm = 4e5, 1.8, 60e3, 300.0
+    body = cp.RigidBody(150e3, (0, 0, 0), (5e5, inertia, 5e5))
+    p = on_soil(cp.ForceTable(rpm, None, {2: (0, 0, 0, 0, moment, 0)}), body, SOIL, r, 0.0)
+    k = 16 * G * r**3 / 3
+    damping = 0.5 / (1 + 2 * inertia / (RHO * r**5))
+    ratio = 2 * rpm * np.pi / 30 / np.sqrt(k / inertia)
+    expected = moment / k / np.hypot(1 - ratio**2, 2 * damping * ratio)
+    np.testing.assert_allclose(amplitude(p, rpm, 2, 4), expected, rtol=1e-12)
+
+
+def test_rocking_about_the_base() -> None:
+    """Hall's analog of rocking alone, about the middle of the base: D = 0.15/((1 + B)√B)."""
+    inertia, r, moment, rpm = 3e5, 2.2, 80e3, 420.0
+    body = cp.RigidBody(120e3, (0, 0, 0), (inertia, 4e5, 5e5))
+    p = on_soil(cp.ForceTable(rpm, None, {1: (0, 0, 0, moment, 0, 0)}), body, SOIL, r, 0.0)
+    k = 8 * G * r**3 / (3 * (1 - NU))
+    b = 3 * (1 - NU) * inertia / (8 * RHO * r**5)
+    damping = 0.15 / ((1 + b) * np.sqrt(b))
+    ratio = rpm * np.pi / 30 / np.sqrt(k / inertia)
+    expected = moment / k / np.hypot(1 - ratio**2, 2 * damping * ratio)
+    np.testing.assert_allclose(amplitude(p, rpm, 1, 3), expected, rtol=1e-12)
+
+
+def test_coupled_rocking_and_sliding_has_the_roots_of_the_quadratic() -> None:
+    """The classic equation of a block whose CG is h above its base (Barkan; Prakash and Puri)."""
+    body = cp.RigidBody.block(width=3.0, height=2.4, length=4.0)
+    base = SOIL.mount(body, width=3.0, length=4.0, y=-2.4)
+    p = cp.Powertrain(cp.ForceTable(300, {1: (1, 0, 0, 0, 0, 0)}), body, [base])
+    m, h = body.mass, 1.2
+    about_cg = body.inertia[2][2]
+    about_base = about_cg + m * h * h
+    (kx, *_, rocking), _ = six(base)
+    gamma = about_cg / about_base
+    sliding, rock = kx / m, rocking / about_base
+    roots = np.sort(np.roots([gamma, -(sliding + rock), sliding * rock]).real)
+    found = p.modes().frequency
+    for root in np.sqrt(roots) / (2 * np.pi):
+        assert np.abs(found - root).min() < 1e-9 * root
