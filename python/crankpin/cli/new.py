@@ -441,8 +441,14 @@ def _lower(
     if isinstance(cylinder, list) and len(cylinder) == 2 * count:
         cylinder, upper = cylinder[:count], cylinder[count:]
         changes["upper"] = upper
-    if arguments.get("one_crankshaft") and "upper" not in arguments:
-        changes["upper"] = upper
+    if "distance" in changes and "one_crankshaft" not in changes:
+        changes["one_crankshaft"] = False  # of a preset, to which a second crank is typed
+    elif arguments.get("one_crankshaft"):
+        # Instead of a preset's second crank, unless one is typed.
+        changes.setdefault("distance", None)
+        changes.setdefault("ratio", 1)
+        if "upper" not in arguments:
+            changes["upper"] = upper
     return cylinder
 
 

@@ -243,8 +243,10 @@ export class Scene {
       },
       pose: ({ cylinders }, _strokes, motion) => {
         const { size, rod, beam } = ends;
-        const at = (along, across = 0) =>
-          this.at(add(cylinders[k].wrist, multiply(direction, [along, across * size])), z, motion);
+        const at = (along, across = 0) => {
+          const [x, y] = add(cylinders[k].wrist, multiply(direction, [along, across * size]));
+          return this.at([x, y], z, motion);
+        };
         const [yoke, stem] = bars;
         yoke.draw(beam
           ? [at(0), at(0, SIDE_RODS), at(beam, SIDE_RODS), at(beam, -SIDE_RODS), at(0, -SIDE_RODS), at(0)]

@@ -321,8 +321,14 @@ fn recognise(degrees: f64, within: f64) -> Option<Angle> {
 impl Add for Angle {
     type Output = Self;
 
-    /// Exact between fractions as long as the denominator fits.
+    /// Exact between fractions as long as the denominator fits, and where one is zero.
     fn add(self, other: Self) -> Self {
+        if let Turns(0, _) = other.0 {
+            return self;
+        }
+        if let Turns(0, _) = self.0 {
+            return other;
+        }
         if let (Turns(a, b), Turns(c, d)) = (self.0, other.0) {
             let sum = if b == d {
                 turns(i128::from(a) + i128::from(c), b.into())

@@ -287,4 +287,12 @@ proptest! {
         let angle = Angle::from_degrees(degrees).unwrap().reduced().degrees();
         prop_assert!((0.0..360.0).contains(&angle));
     }
+
+    #[test]
+    fn adding_zero_changes_nothing(degrees in -1e6..1e6) {
+        // What is reduced may be as near a fraction as a typed double that stands for it.
+        let angle = Angle::from_degrees(degrees).unwrap().reduced();
+        let sums = [angle + Angle::ZERO, Angle::ZERO + angle, angle - Angle::ZERO];
+        prop_assert!(sums.iter().all(|sum| sum.0 == angle.0));
+    }
 }
