@@ -45,6 +45,7 @@ IRRATIONAL = {
     "opposed-piston-6",
     "delta-18",
     # of unlike proportions
+    "opposed-piston-3",
     *(name for name in NAMES if name.endswith("-link-rods")),
 }
 # Sums of at most 16 terms, each rounded a few times to 1.1e-16.

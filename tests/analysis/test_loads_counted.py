@@ -47,6 +47,9 @@ RESULTS: dict[str, Any] = {
     "cancellation": lambda e: mounted(e).response(3000).cancel(SHAKER, (0, 0.1, 0)),
     "driven": lambda e: mounted(e).response(3000).cancel(SHAKER, (0, 0.1, 0)).response,
     "mount designs": lambda e: mounted(e).designs([3000], {"a": {"stiffness": [1e5, 2e5]}}),
+    "mount sweep": lambda e: mounted(e).sweep(
+        [3000], factor=[0, 0.5], receivers={"seat": (0, 0.1, 0)}
+    ),
     "mount design": lambda e: cp.design_mounts(
         mounted(e), vary="stiffness", bounds={"stiffness": (5e4, 5e5)}
     ),
