@@ -314,8 +314,8 @@ class EngineData:
     def chambers(self) -> tuple[tuple[int, ...], ...]:
         """Numbers of the cylinders of each chamber: two where pistons face each other in one bore.
 
-        Such pistons are on different cranks. Their chamber fires once, under the first number,
-        where it is smallest; dummy pistons have none.
+        Such pistons are on different cranks, or side rods drive one. Their chamber fires once,
+        under the first number, where it is smallest; dummy pistons have none.
 
         Examples
         --------

@@ -99,14 +99,25 @@ def _band(
     inside = result.theta_deg < end
     theta = np.append(result.theta_deg[inside], end)
     rows = np.column_stack([result.pressure[:, inside], result.pressure[:, :1]]) / 1e5
-    (line,) = draw_curves(ax, theta, {name: rows.mean(axis=0)}, style)
-    if len(result) > 1:
-        least, most = rows.min(axis=0), rows.max(axis=0)
-        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
-        ax.fill_between(theta, least, most, label="least to largest", **band)
+    _mean_in_band(ax, theta, name, rows, style)
     if is_lowest:
         x_axis(ax, FROM_FIRING, theta, by_angle=True)
     y_axis(ax, PRESSURE, largest=max(float(rows.max()), float(ax.dataLim.y1)))
+
+
+def _mean_in_band(
+    ax: Axes,
+    theta: NDArray[np.float64],
+    name: str,
+    rows: NDArray[np.float64],
+    style: dict[str, object],
+) -> None:
+    """Draw the mean of the rows of cycles, in the band of all where there are several."""
+    (line,) = draw_curves(ax, theta, {name: rows.mean(axis=0)}, style)
+    if len(rows) > 1:
+        least, most = rows.min(axis=0), rows.max(axis=0)
+        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
+        ax.fill_between(theta, least, most, label="least to largest", **band)
 
 
 @picture.register(Oscillogram)
@@ -127,11 +138,7 @@ def _oscillogram(
     name = optional_text("label", label) or f"mean of {count} cycle{'s' * (count > 1)}"
     theta = np.append(result.theta_deg, -result.theta_deg[0])
     speed = np.column_stack([result.speed, result.speed[:, :1]])
-    (line,) = draw_curves(ax, theta, {name: speed.mean(axis=0)}, style)
-    if count > 1:
-        band: dict[str, Any] = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0.0}
-        least, most = speed.min(axis=0), speed.max(axis=0)
-        ax.fill_between(theta, least, most, label="least to largest", **band)
+    _mean_in_band(ax, theta, name, speed, style)
     x_axis(ax, FROM_FIRING, theta, by_angle=True)
     y_axis(ax, units.headed("crank speed", "rpm"))
     add_legend(ax)

@@ -267,6 +267,15 @@ def test_bob_weights_without_rotating_masses_are_not_given_as_known(name: str) -
     assert not known.table.note
 
 
+@in_turn("mass", [0.0, 0.4])
+def test_big_ends_at_knuckles_are_named_as_not_counted(mass: float) -> None:
+    rods = cp.LinkRods(radius=0.05, length=0.15, big_end_mass=mass)
+    star = cp.Engine.radial(cp.Cylinder(0.05, 0.2, 1.0), cylinders=5, rods=rods, rotating_mass=1.0)
+    bob = cp.bob_weight(star)
+    for frame in (bob.table, bob.card().frames["bob weights"]):
+        assert ("Big ends of link rods, at their knuckles, are not" in frame.note) == bool(mass)
+
+
 @in_turn("seed", range(20))
 def test_a_crankshaft_at_its_bob_weights_takes_nothing(seed: int) -> None:
     """Also where rods beside each other share a pin and its oil, which is midway between them."""

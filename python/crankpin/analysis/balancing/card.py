@@ -130,6 +130,8 @@ def remarks(bob: BobWeight) -> str:
             "Rotating masses are not known: bob weights lack the big ends and bearings, which are "
             "balanced wholly."
         )
+    if any(link is not None and link.big_end_mass for link in bob.engine.link_rods):
+        texts.append("Big ends of link rods, at their knuckles, are not counted.")
     return " ".join(texts)
 
 
