@@ -40,14 +40,18 @@ export const bobPane = {
       return [percent(factors[k]), force.peak, ...force.peak_xy, moment.peak, ...moment.peak_xy];
     });
     const [{ pins, order_1: first }] = found;
+    const isBeside = found.some((each) => each.pins.some(({ across }) => across));
     return [
       table({
         title: WORDS.bobWeights,
         columns: [{ label: "cylinders" }, { label: "rotating", unit: "kg" }, { label: "reciprocating", unit: "kg" },
-          ...factors.map((factor) => ({ label: `bob weight at ${percent(factor)}`, unit: "kg", key: "bob-weight" }))],
-        rows: pins.map(({ cylinders, rotating, reciprocating }, k) =>
-          [cylinders.join(", "), rotating, reciprocating, ...found.map((each) => each.pins[k].bob_weight)]),
+          ...factors.flatMap((factor) => [
+            { label: `bob weight at ${percent(factor)}`, unit: "kg", key: "bob-weight" },
+            ...(isBeside ? [{ label: "across", unit: "kg" }] : [])])],
+        rows: pins.map(({ cylinders, rotating, reciprocating }, k) => [cylinders.join(", "), rotating, reciprocating,
+          ...found.flatMap(({ pins: { [k]: pin } }) => [pin.bob_weight, ...(isBeside ? [pin.across] : [])])]),
       }),
+      ...(isBeside ? [explained(WORDS.acrossPins)] : []),
       ...(pins.every(({ rotating }) => rotating > 0) ? [] : [explained(WORDS.noRotatingMass)]),
       table({
         title: WORDS.bobLeaves(short(rpm, 3)),

@@ -80,6 +80,8 @@ export const WORDS = {
   factors: "Balance factors, such as 50 %, 52 %",
   bobWeights: "Bob weights on each crankpin",
   noRotatingMass: "Rotating masses are not known: these bob weights lack the big ends and bearings.",
+  acrossPins: "Across: what acts a quarter of a turn ahead of the crankpin, at its radius, of big ends of link rods; "
+    + "no weight clamped to the crankpin has it.",
   bobLeaves: (rpm) => `What order 1 keeps at ${rpm} rpm`,
   vectors: { force: "shaking force", moment: "rocking moment" },
   leastAt: (name, factor) => `The longest ${name} of order 1 is the smallest at ${factor}.`,

@@ -150,11 +150,14 @@ pub fn forward_weight(py: Python<'_>, parts: Parts, rotating_mass: f64) -> PyRes
     interrupt::run(py, |cancel| bob_weight::forward_weight(&cylinder, rotating_mass, cancel))
 }
 
-/// Rotating and reciprocating mass on each crankpin, from front to flywheel, kg.
+/// Rotating and reciprocating mass on each crankpin, its bob weight, and what acts across it, from front to flywheel, kg.
 #[guarded]
 #[pyfunction]
-pub fn masses_on_pins(engine: &Engine) -> Vec<(f64, f64)> {
-    card::pins(&engine.0).iter().map(|pin| (pin.rotating, pin.reciprocating)).collect()
+pub fn masses_on_pins(engine: &Engine, factor: f64, oil: f64) -> Vec<[f64; 4]> {
+    let masses = |pin: &card::PinMasses| {
+        [pin.rotating, pin.reciprocating, pin.bob_weight(factor, oil), pin.across(factor)]
+    };
+    card::pins(&engine.0).iter().map(masses).collect()
 }
 
 /// Angles at which to add and to drill, mass at the radius and in heavy metal.

@@ -54,7 +54,7 @@ pub fn bob_weights(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> 
         let cylinders: Vec<usize> = on.pin.cylinders.iter().map(|k| k + 1).collect();
         json!({
             "cylinders": cylinders, "z": on.pin.z, "rotating": on.rotating,
-            "reciprocating": on.reciprocating, "bob_weight": on.bob_weight(factor, 0.0),
+            "reciprocating": on.reciprocating, "bob_weight": on.bob_weight(factor, 0.0), "across": on.across(factor),
         })
     });
     let vectors = [("force", Vector::Force), ("moment", Vector::Moment)].map(|(name, vector)| {

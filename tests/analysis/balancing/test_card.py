@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
+from rederivation import link_rods
 from support import in_turn
 
 if TYPE_CHECKING:
@@ -267,13 +268,81 @@ def test_bob_weights_without_rotating_masses_are_not_given_as_known(name: str) -
     assert not known.table.note
 
 
-@in_turn("mass", [0.0, 0.4])
-def test_big_ends_at_knuckles_are_named_as_not_counted(mass: float) -> None:
-    rods = cp.LinkRods(radius=0.05, length=0.15, big_end_mass=mass)
-    star = cp.Engine.radial(cp.Cylinder(0.05, 0.2, 1.0), cylinders=5, rods=rods, rotating_mass=1.0)
+def test_big_ends_at_knuckles_of_a_star_by_hand() -> None:
+    """Four of 0.4 kg: k adds up to −52/230 of each; half of it leaves N − 1 + a/2l, as printed."""
+    rods = cp.LinkRods(radius=0.052, length=0.178, big_end_mass=0.4)
+    star = cp.Engine.radial(
+        cp.Cylinder(0.06, 0.23, 1.0), 5, rods=rods, rotating_mass=[1.1, 0, 0, 0, 0]
+    )
     bob = cp.bob_weight(star)
-    for frame in (bob.table, bob.card().frames["bob weights"]):
-        assert ("Big ends of link rods, at their knuckles, are not" in frame.note) == bool(mass)
+    moving = 0.4 * 52 / 230
+    assert bob.rotating == pytest.approx([1.1 + 4 * 0.4 + moving], rel=1e-14)
+    assert bob.reciprocating == pytest.approx([5.0 - moving], rel=1e-14)
+    # 4.1130435: order 1 forward of unit masses at the knuckles.
+    assert bob.mass == pytest.approx([1.1 + 2.5 + 0.4 * 4.1130435], abs=1e-8)
+    assert not bob.across.any()
+    assert "across" not in bob.table.to_csv()
+
+
+def test_big_ends_on_one_side_act_across_the_crankpin() -> None:
+    """A link at 60° whose k is ¼·e^{i60°}: 0.4 kg less (1 − κ)·0.1 kg at 60°."""
+    rods = cp.LinkRods(radius=0.05, length=0.15, angles_deg=[60.0], big_end_mass=0.4)
+    twin = cp.Engine.vee(
+        cp.Cylinder(0.05, 0.2, 1.0), bank_angle_deg=60, throws_deg=[0], spacing=0.1, rods=rods
+    )
+    bob = cp.bob_weight(twin, 0.3)
+    assert bob.mass == pytest.approx([0.4 - 0.7 * 0.1 * 0.5 + 0.3 * 2.0], rel=1e-14)
+    assert bob.across == pytest.approx([-0.7 * 0.1 * 3**0.5 / 2], rel=1e-14)
+    card = bob.card([0.3, 1.0]).frames["bob weights"]
+    assert card.table["across"].values == pytest.approx(1e3 * bob.across, rel=1e-12)
+    assert "no weight clamped to the crankpin has it" in bob.table.note
+    # The whole of what moves with the piston needs nothing across.
+    assert not cp.bob_weight(twin, 1.0).across.any()
+
+
+@in_turn("seed", range(40))
+def test_bob_weights_leave_what_their_factor_says_of_moving_parts(seed: int) -> None:
+    """1 − 2κ of what turns with the crank, big ends at knuckles too, in either sense."""
+    rng = np.random.default_rng(seed)
+    bores = rng.choice([0.0, 60.0, 90.0, 150.0, 180.0, 300.0], 3, replace=False)
+    masses, radii, ends = (rng.choice(of, 3) for of in ([0.5, 1.0], [0.03, 0.05], [0.0, 0.4]))
+    angles = (bores - bores[0]) % 360.0
+    sense = int(rng.choice([1, -1]))
+    engine = cp.Engine.from_lists(
+        [cp.Cylinder(0.05, 0.2, float(mass)) for mass in masses],
+        tdc_deg=bores * sense,
+        bank_deg=bores,
+        z=[0.0] * 3,
+        rotating_mass=[0.7, 0.0, 0.0],
+        cranks=[(0.3, 0.0, -1)],
+        crank=[0 if sense > 0 else 1] * 3,
+    ).with_link_rods(
+        [None, *(cp.LinkRod(1, float(radii[k]), float(angles[k]), float(ends[k])) for k in (1, 2))]
+    )
+    hung = [link_rods.Hung(float(bores[0]), 0.2, masses[0])]
+    hung += [
+        link_rods.Hung(float(bores[k]), 0.2, masses[k], 0, radii[k], angles[k], ends[k])
+        for k in (1, 2)
+    ]
+    direction = np.exp(2j * np.pi * sense * np.arange(256) / 256)
+    moving = link_rods.cylinder_forces(hung, [0.05 * direction] * 3, 256).sum(axis=0) @ [1.0, 1j]
+
+    def turning(factor: float) -> complex:
+        """The part of order 1 that turns with the crank, over ω²."""
+        bob = cp.bob_weight(engine, factor)
+        turned = 0.7 * 0.05 + sum(
+            weight.amount * np.exp(1j * sense * np.radians(weight.angle_deg))
+            for weight in bob.hardware
+        )
+        left = complex(np.fft.fft(moving + turned * direction)[sense] / 256)
+        residual = bob.residual[1].force
+        found = residual.forward if sense > 0 else residual.backward
+        assert complex(found) == pytest.approx(left, abs=1e-14)  # of sums of 0.1
+        return left
+
+    assert abs(turning(0.0)) > 0.01
+    for factor in (0.5, 0.6, 1.5):
+        assert turning(factor) == pytest.approx((1.0 - 2.0 * factor) * turning(0.0), abs=1e-14)
 
 
 @in_turn("seed", range(20))

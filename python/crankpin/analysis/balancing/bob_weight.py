@@ -57,7 +57,9 @@ def bob_weight(
     A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
     that of all rods on the pin together. Its counterweights then cancel these masses. Half of the
     reciprocating mass leaves no part of force and moment that turns with a pin's own crank, in any
-    engine without pin offset; the part that turns against it does not depend on the factor.
+    engine without pin offset; the part that turns against it does not depend on the factor. The big
+    end of a link rod counts as rotating, but for the part k = a·e^{iψ}/l of it that reciprocates
+    with the master's piston; what of that acts across the crankpin is ``across``.
 
     Parameters
     ----------
@@ -169,18 +171,27 @@ class BobWeight(Tabled):
         """Reciprocating mass on each crankpin, kg: (n_crankpins,)."""
         return read_only(self._masses[:, 1])
 
-    @cached_property
-    def _masses(self) -> NDArray[np.float64]:
-        return np.array(_core.masses_on_pins(engine_core(self.engine)))
-
     @property
     def mass(self) -> NDArray[np.float64]:
         """Bob weight of each crankpin, at the crank radius, kg: (n_crankpins,)."""
-        return self._mass_at(self.factor)
+        return read_only(self._masses[:, 2])
 
-    def _mass_at(self, factor: float) -> NDArray[np.float64]:
-        """Return the bob weights of a factor, kg."""
-        return read_only(self.rotating + factor * self.reciprocating + self.oil)
+    @property
+    def across(self) -> NDArray[np.float64]:
+        """What bob weights clamped to the crankpins lack, kg: (n_crankpins,).
+
+        Mass at the crank radius, a quarter of a turn ahead of the crankpin, of big ends of link
+        rods on one side of their master rod. ``fitted`` balances it too.
+        """
+        return read_only(self._masses[:, 3])
+
+    @cached_property
+    def _masses(self) -> NDArray[np.float64]:
+        return self._masses_at(self.factor)
+
+    def _masses_at(self, factor: float) -> NDArray[np.float64]:
+        """Return rotating, reciprocating, bob weight and across: (n_crankpins, 4), kg."""
+        return np.array(_core.masses_on_pins(engine_core(self.engine), factor, self.oil))
 
     @property
     def grams(self) -> NDArray[np.float64]:
@@ -302,29 +313,22 @@ class BobWeight(Tabled):
     @property
     def table(self) -> Table:
         """Table of the bob weights in grams."""
-        rows = np.stack(
-            [
-                np.array([pin.pin_deg for pin in self.crankpins]),
-                1e3 * self.rotating,
-                1e3 * self.reciprocating,
-                np.full(len(self.crankpins), 1e3 * self.oil),
-                self.grams,
-            ],
-            axis=1,
-        )
+        columns: dict[str, Any] = {
+            "rotating": self.rotating,
+            "reciprocating": self.reciprocating,
+            "oil": np.full(len(self.crankpins), self.oil),
+            "bob weight": self.mass,
+        }
+        if self.across.any():
+            columns["across"] = self.across
+        pins = np.array([pin.pin_deg for pin in self.crankpins])
+        rows = np.stack([pins, *((1e3 * masses).round(9) for masses in columns.values())], axis=1)
         name = labels.name_of(self.engine)
         title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
         title += " + oil" if self.oil else ""
         return Table.from_rows(
             title,
-            [
-                "cylinders",
-                ("crankpin", "°"),
-                ("rotating", "g"),
-                ("reciprocating", "g"),
-                ("oil", "g"),
-                ("bob weight", "g"),
-            ],
+            ["cylinders", ("crankpin", "°"), *((name, "g") for name in columns)],
             [(_numbers(pin),) for pin in self.crankpins],
             rows,
             decimals=1,

@@ -125,13 +125,17 @@ def remarks(bob: BobWeight) -> str:
         texts.append(f"Not weighed, but of the engine's rods: {', '.join(bob.of_rods)}.")
     if left_out:
         texts.append(f"Not weighed, and not counted: {', '.join(left_out)}.")
-    if not bob.rotating.all():
+    big_ends = bob.engine.rotating_mass
+    if not all(any(big_ends[i - 1] for i in pin.cylinders) for pin in bob.crankpins):
         texts.append(
             "Rotating masses are not known: bob weights lack the big ends and bearings, which are "
             "balanced wholly."
         )
-    if any(link is not None and link.big_end_mass for link in bob.engine.link_rods):
-        texts.append("Big ends of link rods, at their knuckles, are not counted.")
+    if bob._masses_at(0.0)[:, 3].any():
+        texts.append(
+            "Across: what acts a quarter of a turn ahead of the crankpin, at its radius, of big "
+            "ends of link rods; no weight clamped to the crankpin has it."
+        )
     return " ".join(texts)
 
 
@@ -221,9 +225,15 @@ class Card(Tabled):
     def _bob_weights(self) -> Table:
         bob = self.bob
         oil = np.full(len(bob.crankpins), bob.oil)
-        masses = [bob.rotating, bob.reciprocating, oil, *map(bob._mass_at, self.factors)]
+        masses = [bob.rotating, bob.reciprocating, oil]
         heads = ["rotating", "reciprocating", "oil"]
-        heads += [f"at {100.0 * factor:.6g} %" for factor in self.factors]
+        for factor in self.factors:
+            *_, bob_weight, across = bob._masses_at(factor).T
+            heads.append(f"at {100.0 * factor:.6g} %")
+            masses.append(bob_weight)
+            if across.any():
+                heads.append("across")
+                masses.append(across)
         return Table.from_rows(
             "Bob weight of each crankpin",
             ["cylinders", ("crankpin", "°"), *((head, "g") for head in heads)],

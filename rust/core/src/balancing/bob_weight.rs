@@ -23,21 +23,35 @@ const ALIKE: f64 = 1e-12;
 /// Of an interval of factors, to the last digits of a double.
 const HALVINGS: u32 = 60;
 /// Part of a sum that its rounding is below.
-const SUM_ROUNDING: f64 = 1e-14;
+pub(super) const SUM_ROUNDING: f64 = 1e-14;
 /// Part of the sum of all magnitudes of an engine that their rounding is below.
 const ROUNDING_OF_ALL: f64 = 1e-15;
 
 /// The engine with counterweights opposite its crankpins, in place of those it has, that balance a bob
 /// weight at each: all of the rotating and a share of the reciprocating mass.
+///
+/// The mass at the knuckle of a link rod rotates but for the part that moves as the master's wrist pin: where it turns
+/// with the crank, the knuckle's angle ahead of the crankpin.
 pub fn with_bob_weights(engine: &Engine, factor: f64) -> Result<Engine> {
-    let weight = |(i, station): (usize, &crate::Station)| {
-        let gear = &station.cylinder;
-        let mass = bob_weight([station.rotating_mass, gear.reciprocating_mass()], factor);
-        let (amount, angle) = (mass * gear.crank_radius(), Angle::HALF_TURN);
-        Unbalance { amount, angle, z: station.z, pin: Some(i), crank: CrankIndex::MAIN }
-    };
-    let weights = engine.stations().iter().enumerate().map(weight);
-    engine.with_counterweights(weights.filter(|weight| weight.amount >= SMALLEST).collect())
+    let mut weights = Vec::new();
+    for (i, station) in engine.stations().iter().enumerate() {
+        let mut push = |mass: f64, angle: Angle| {
+            let amount = mass * station.cylinder.crank_radius();
+            let angle = if amount < 0.0 { (angle + Angle::HALF_TURN).reduced() } else { angle };
+            if amount.abs() >= SMALLEST {
+                let (amount, crank) = (amount.abs(), CrankIndex::MAIN);
+                weights.push(Unbalance { amount, angle, z: station.z, pin: Some(i), crank });
+            }
+        };
+        let knuckle = engine.knuckle_mass(i);
+        let rotating = station.rotating_mass + knuckle.map_or(0.0, |knuckle| knuckle.mass);
+        let reciprocating = station.cylinder.reciprocating_mass();
+        push(bob_weight([rotating, reciprocating], factor), Angle::HALF_TURN);
+        if let Some(knuckle) = knuckle {
+            push((1.0 - factor) * (knuckle.mass * knuckle.share), knuckle.angle);
+        }
+    }
+    engine.with_counterweights(weights)
 }
 
 /// Bob weight, kg, of a rotating and a reciprocating mass: all of the one and a share of the other.

@@ -1,8 +1,9 @@
 //! Card of a balancing shop: the bob weight of each crankpin, and the correction of a crankshaft.
 
-use super::bob_weight::bob_weight;
+use super::bob_weight::{SUM_ROUNDING, bob_weight};
 use super::counterweights::{Fit, FittedWeight, Plane, Target, fit_counterweights};
 use super::weights::Minimise;
+use crate::Complex64;
 use crate::engine::crankpins::Crankpin;
 use crate::engine::{CrankIndex, Engine, Unbalance};
 use crate::numbers::angle::Angle;
@@ -23,6 +24,9 @@ pub struct PinMasses {
     pub rotating: f64,
     /// Reciprocating mass.
     pub reciprocating: f64,
+    /// Reciprocating mass that acts a quarter of a turn ahead of the crankpin, of masses at the knuckles of link rods;
+    /// as much less rotates there.
+    reciprocating_across: f64,
 }
 
 impl PinMasses {
@@ -31,6 +35,12 @@ impl PinMasses {
     pub fn bob_weight(&self, factor: f64, oil: f64) -> f64 {
         bob_weight([self.rotating, self.reciprocating], factor) + oil
     }
+
+    /// What a bob weight lacks that is clamped to the crankpin: mass at its radius a quarter of a turn ahead, kg.
+    #[must_use]
+    pub fn across(&self, factor: f64) -> f64 {
+        bob_weight([-self.reciprocating_across, self.reciprocating_across], factor)
+    }
 }
 
 /// The crankpins from front to flywheel, and what is on each.
@@ -38,9 +48,20 @@ impl PinMasses {
 pub fn pins(engine: &Engine) -> Vec<PinMasses> {
     let on = |pin: Crankpin| {
         let stations = || pin.cylinders.iter().map(|&i| &engine.stations()[i]);
-        let rotating = stations().map(|station| station.rotating_mass).sum();
-        let reciprocating = stations().map(|station| station.cylinder.reciprocating_mass()).sum();
-        PinMasses { pin, rotating, reciprocating }
+        let knuckles = || pin.cylinders.iter().filter_map(|&i| engine.knuckle_mass(i));
+        let at_knuckles: f64 = knuckles().map(|knuckle| knuckle.mass).sum();
+        let moving: Complex64 = knuckles().map(|knuckle| knuckle.reciprocating()).sum();
+        let reciprocating: f64 =
+            stations().map(|station| station.cylinder.reciprocating_mass()).sum();
+        let big_ends: f64 = stations().map(|station| station.rotating_mass).sum();
+        // Knuckles all around cancel across the crankpin.
+        let across = if moving.im.abs() > SUM_ROUNDING * at_knuckles { moving.im } else { 0.0 };
+        PinMasses {
+            pin,
+            rotating: big_ends + (at_knuckles - moving.re),
+            reciprocating: reciprocating + moving.re,
+            reciprocating_across: across,
+        }
     };
     engine.crankpins().into_iter().map(on).collect()
 }

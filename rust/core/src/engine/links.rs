@@ -86,8 +86,16 @@ pub(crate) struct KnuckleMass {
     pub mass: f64,
     /// |k|.
     pub share: f64,
-    /// ψ, counter-clockwise.
+    /// ψ, in the sense in which the crank turns.
     pub angle: Angle,
+}
+
+impl KnuckleMass {
+    /// The part, kg, that moves as the master's wrist pin, as a vector from the crankpin's direction in the sense of
+    /// the crank.
+    pub fn reciprocating(&self) -> Complex64 {
+        self.angle.cis(1) * (self.mass * self.share)
+    }
 }
 
 impl Engine {
@@ -370,6 +378,7 @@ impl Engine {
     pub(crate) fn knuckle_mass(&self, cylinder: usize) -> Option<KnuckleMass> {
         let LinkRod { master, radius, angle, big_end_mass } = self.link_rods[cylinder]?;
         let length = self.stations[master].cylinder.rod_length();
+        let angle = self.seen(cylinder, angle).reduced();
         let mass = KnuckleMass { master, mass: big_end_mass, share: radius / length, angle };
         (big_end_mass > 0.0).then_some(mass)
     }

@@ -178,7 +178,8 @@ impl Scene {
                 bank: Some(engine.bank_of(i)),
                 ..of_master.towards(direction)
             };
-            let turned = of_master.direction + angle;
+            let is_forward = of_master.ratio.is_forward();
+            let turned = of_master.direction + if is_forward { angle } else { -angle };
             let radius = engine.stations()[i].cylinder.crank_radius();
             // 1 − k of the crankpin's motion, as two unbalances whose angles are those that were given.
             self.push_unbalance(place(of_master.direction), mass * radius);
@@ -186,8 +187,6 @@ impl Scene {
             let along = PistonInertia(driven(master));
             let amounts = [mass * radius * share, mass * radius * radius * share * share];
             self.push(place(turned), along, amounts[0], amounts[1]);
-            let is_forward = of_master.ratio.is_forward();
-            let angle = if is_forward { angle } else { -angle };
             let coupling = KnuckleCoupling::new(driven(master), share, angle);
             self.push(place(of_master.direction), coupling, 0.0, mass * radius * radius);
         }

@@ -231,13 +231,10 @@ fn roll_beside(engine: &Engine, rpm: f64, unit: f64, cancel: &Cancel) -> Result<
 fn bob_weights(engine: &Engine) -> Option<Finding> {
     let is_of_crank_alone = |i: usize| !engine.mechanism(i).exact_force(1).rest.exists();
     let is_of_crank = |ratio: SpeedRatio| engine.cranks().iter().any(|crank| crank.ratio == ratio);
-    // The big ends of link rods turn with the crank too.
-    let has_knuckles = (0..engine.stations().len()).any(|i| engine.knuckle_mass(i).is_some());
     // Other cranks have their first order elsewhere.
     let fast = engine.cranks().iter().any(|crank| !crank.ratio.is_crank_speed());
     if !(0..engine.stations().len()).all(is_of_crank_alone)
         || fast
-        || has_knuckles
         || engine.shafts().iter().any(|shaft| is_of_crank(shaft.ratio))
     {
         return None;
