@@ -29,6 +29,7 @@ from crankpin.analysis.mounts.adaptive import AdaptiveLaw as AdaptiveLaw
 from crankpin.analysis.mounts.design_mounts import MountDesign as MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses as DesignResponses
 from crankpin.analysis.mounts.feedback import VelocityFeedback as VelocityFeedback
+from crankpin.analysis.mounts.load_cases import LoadCases as LoadCases
 from crankpin.analysis.mounts.modes import MountModes as MountModes
 from crankpin.analysis.mounts.modes import RollAxes as RollAxes
 from crankpin.analysis.mounts.mount_sweep import MountSweep as MountSweep

@@ -101,7 +101,7 @@ NOTHING_OF_GAS = {
     "Oscillogram", "PreparedTrace",  # the pressure itself
     "VanishingOrders", "Verdicts",  # which orders of either there are
     "Firing", "DeadCentres",  # angles; those that do not fire are named
-    "MountModes", "MountRobustness", "RollAxes", "StaticState",
+    "MountModes", "MountRobustness", "RollAxes", "StaticState", "LoadCases",
     "AdaptiveLaw", "VelocityFeedback",  # of any load
     "Arrangement", "BalancerOption", "Choice", "Design",  # items of results that say it
     "OrderResponse", "WorstForce",  # parts of a response, which says it

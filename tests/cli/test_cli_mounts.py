@@ -281,3 +281,58 @@ def test_further_errors_name_the_option(
     car: Path, capsys: CAPTURE, typed: list[str], hint: str
 ) -> None:
     assert hint in failed(capsys, car, *typed)
+
+
+def test_load_cases_are_those_of_the_library(car: Path, capsys: CAPTURE) -> None:
+    cases = {
+        "idle": {},
+        "first gear": {"torque": "engine", "gear_ratio": 13.0, "rpm": 3000.0},
+        "braking": {"acceleration": [0.0, 0.0, 8.0], "torque": -150.0},
+    }
+    typed = [
+        *("--case", "idle"),
+        *("--case", "first gear:torque=engine:gear=13:rpm=3000"),
+        *("--case", "braking: acceleration=0,0,8 : torque=-150"),
+    ]
+    loaded = CAR.load_cases(cases)
+    text = printed(capsys, car, *typed)
+    for table in loaded.frames.values():
+        assert table.text() in text
+    text = printed(capsys, car, *typed, "--frame", "worst", "--csv")
+    head, *rows = csv.reader(io.StringIO(text))
+    worst = {column.name: column.values for column in loaded.frames["worst"].columns}
+    assert tuple(row[head.index("case of travel")] for row in rows) == worst["case of travel"]
+
+
+def test_modes_and_response_are_about_a_case(tmp_path: Path, capsys: CAPTURE) -> None:
+    snubbed = [m.replace(gap=0.005, snubber_stiffness=8e5) for m in CAR.mounts]
+    whole = CAR.replace(mounts=snubbed)
+    whole.save(path := tmp_path / "snubbed.toml")
+    drive = whole.replace(rest={"torque": 1500.0})
+    typed = ("--case", "drive:torque=1500", "--rest", "drive")
+    assert drive.modes().table.text() in printed(capsys, path, *typed)
+    title = drive.response(3000).table.title
+    assert str(title) in printed(capsys, path, "--rpm", 3000, *typed)
+    text = printed(capsys, path, "--rpm", 3000, "--orders", 2, *typed, "--csv")
+    head, row, *_ = csv.reader(io.StringIO(text))
+    peak = drive.response(3000, orders=[2]).body_force[2].peak
+    assert float(row[head.index("longest N")]) == pytest.approx(peak, rel=1e-12)
+    assert whole.modes().table.text() in printed(capsys, path)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--case", "a:torq=3"), "--case = a:torq=3: give NAME:FIELD=VALUE:…, of torque, gear"),
+        (("--case", "a:torque="), "give NAME:FIELD=VALUE"),
+        (("--case", ":torque=3"), "give each case a name of its own"),
+        (("--case", "a", "--case", "a"), "give each case a name of its own"),
+        (("--case", "a", "--torque", "3"), "--torque = 3: cannot be combined with --case"),
+        (("--case", "a", "--rpm", "3000"), "--case = a: acts without --rpm alone"),
+        (("--rest", "a"), "--rest = a: is no --case"),
+    ],
+)
+def test_wrong_cases_are_named(
+    car: Path, options: tuple[str, ...], words: str, capsys: CAPTURE
+) -> None:
+    assert words in failed(capsys, car, *options)

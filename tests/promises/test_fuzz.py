@@ -71,7 +71,7 @@ UNDEFINED = {
 HOLD_ANYTHING = {
     *("AdaptiveLaw", "BalancerOption", "BobWeight", "Card", "Choice", "DeadCentres", "Design"),
     "Match",
-    *("MountDesign", "MountModes", "MountRobustness", "OrderBalance", "OrderResponse"),
+    *("LoadCases", "MountDesign", "MountModes", "MountRobustness", "OrderBalance", "OrderResponse"),
     *("FoundationTable", "GuideMoments", "LocomotiveForces"),
     *("PointMotion", "Quantity", "RollAxes", "StarDiagram", "StaticState", "Table"),
     *("TorsionalExcitation", "VelocityFeedback", "Verdicts", "WorstForce"),

@@ -653,6 +653,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "ForceTable",
         "Powertrain",
         "StaticState",
+        "LoadCases",
         "MountModes",
         "MountResponse",
         "MountRobustness",

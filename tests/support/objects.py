@@ -245,6 +245,7 @@ OBJECTS = Made(
         "RigidBody": lambda: MOUNTED.body,
         "Powertrain": lambda: MOUNTED,
         "StaticState": lambda: MOUNTED.static(100.0),
+        "LoadCases": lambda: MOUNTED.load_cases({"rest": {}, "drive": {"torque": 100.0}}),
         "ForceTable": lambda: cp.force_table(ODD, 600.0, orders=[1, 2]),
         "Soil": lambda: cp.Soil(6e7, 0.3),
         "Powertrain of forces": lambda: SHAKEN,

@@ -326,6 +326,11 @@ RESTING = _named(
         )
     ),
     _of("preload", "force of a mount", "N", "mount", axes=_XYZ),
+    _of("travel", "travel of a mount", "m", "all_mounts", axes=_DIRECTION),
+    _of("deflection", "deflection of a mount along its own axes", "m", "all_mounts", "mount_axis",
+        symbol="d"),
+    _of("snubber_force", "force of a mount's snubbers along its own axes", "N", "all_mounts",
+        "mount_axis", symbol="F"),
     _of("ground_preload", "force of a subframe's mount", "N", "subframe_mount", axes=_XYZ),
 )  # fmt: skip
 """Name of a quantity of a powertrain at rest → its entry."""

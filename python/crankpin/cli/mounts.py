@@ -24,6 +24,17 @@ AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
 POWERTRAIN_FILE = option(
     "name", argument="path", metavar="FILE", help="an engine file with [powertrain] (.toml, .json)"
 )
+CASE_FIELDS = {
+    "torque": ("torque", "N·m"),
+    "gear": ("gear_ratio", ""),
+    "rpm": ("rpm", "rpm"),
+    "gravity": ("gravity", ""),
+    "acceleration": ("acceleration", ""),
+    "thrust": ("thrust", "N"),
+    "thrust-at": ("thrust_at", "m"),
+}
+"""Field of ``--case`` → argument of :meth:`Powertrain.static`, and its unit."""
+CASE_FORM = f"NAME:FIELD=VALUE:…, of {', '.join(CASE_FIELDS)}"
 PICTURE_WORDS = ("cuts", "map", "waterfall", "spectrum")
 
 
@@ -46,6 +57,21 @@ def _powertrain(call: Given) -> Powertrain:
     keyword(Powertrain.static, "torque", metavar="N·M"),
     keyword(Powertrain.static, "gear_ratio", "--gear", metavar="RATIO"),
     keyword(Powertrain.static, "gravity", metavar="X,Y,Z"),
+    option(
+        "--case",
+        argument="cases",
+        metavar="NAME:FIELD=VALUE:…",
+        action="append",
+        help="load case, for travel and force of each mount at rest, such as "
+        "'first gear:torque=engine:gear=13' or 'braking:acceleration=0,0,8'; once for each. "
+        f"Fields: {', '.join(CASE_FIELDS)}",
+    ),
+    option(
+        "--rest",
+        metavar="NAME",
+        help="case of --case at which mounts with snubbers rest, for modes and response (default: "
+        "under gravity, or as FILE has it)",
+    ),
     option(
         "--robustness",
         argument="stiffness",
@@ -100,6 +126,8 @@ def _powertrain(call: Given) -> Powertrain:
             "subframe",
             "axes",
             "static",
+            "worst",
+            "motion",
             "robustness",
             "loads",
             "power",
@@ -112,9 +140,7 @@ def _powertrain(call: Given) -> Powertrain:
     note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number.",
 )
 def _mounts(call: Given) -> Shown:
-    powertrain = _powertrain(call)
-    if call.text("--misfire") is not None:
-        powertrain = powertrain.with_misfire(call.whole("--misfire"))
+    powertrain, cases = _changed(call, _powertrain(call))
     rpm: Any = call.range("--rpm", "rpm")
     page = call.text("--html")
     if page is not None:
@@ -127,7 +153,9 @@ def _mounts(call: Given) -> Shown:
     elif (typed := call.text("--controls")) is not None:
         raise rejected("--controls", typed, "needs --html")
     if rpm is None:
-        return _at_rest(call, powertrain)
+        return _at_rest(call, powertrain, cases)
+    for name in cases:
+        raise rejected("--case", name, "acts without --rpm alone, or is that of --rest")
     for flag in (*AT_REST, *(() if page is not None else ("--frequency",))):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "acts without --rpm alone")
@@ -167,11 +195,55 @@ def _by_factor(call: Given, powertrain: Powertrain, rpm: Any, factors: Any) -> S
     return Shown(swept.frames, swept)
 
 
-def _at_rest(call: Given, powertrain: Powertrain) -> Shown:
-    """Return modes, axes and the static state; what free motions leave undefined is left out."""
+def _changed(call: Given, powertrain: Powertrain) -> tuple[Powertrain, dict[str, dict[str, Any]]]:
+    """Return the powertrain with a misfire and at rest as options say, and other load cases."""
+    if call.text("--misfire") is not None:
+        powertrain = powertrain.with_misfire(call.whole("--misfire"))
+    cases = _cases(call)
+    if (rest := call.text("--rest")) is not None:
+        if rest not in cases:
+            raise rejected("--rest", rest, "is no --case: give one of that name")
+        powertrain = powertrain.replace(rest=cases.pop(rest))
+    return powertrain, cases
+
+
+def _cases(call: Given) -> dict[str, dict[str, Any]]:
+    """Return the load cases of ``--case``: name → arguments of ``Powertrain.static``."""
+    cases = dict[str, dict[str, Any]]()
+    for text in call.text("--case") or []:
+        name, *fields = (part.strip() for part in text.split(":"))
+        arguments: dict[str, Any] = {}
+        for field in fields:
+            key, _, value = (side.strip() for side in field.partition("="))
+            if key not in CASE_FIELDS or not value:
+                raise rejected("--case", text, f"give {CASE_FORM}")
+            argument, unit = CASE_FIELDS[key]
+            if (key, value) == ("torque", "engine"):
+                arguments[argument] = value
+            elif key in ("torque", "gear", "rpm"):
+                arguments[argument] = call.one("--case", value, unit)
+            else:
+                arguments[argument] = call.listed("--case", value, unit)
+        if name in cases or not name:
+            raise rejected("--case", text, "give each case a name of its own")
+        cases[name] = arguments
+    return cases
+
+
+def _at_rest(call: Given, powertrain: Powertrain, cases: dict[str, dict[str, Any]]) -> Shown:
+    """Return modes, axes and the static state; what free motions leave undefined is left out.
+
+    Or travels and forces of the mounts under load cases.
+    """
     for flag in ("--at", "--on", "--factor", "--mount", "--picture"):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "needs --rpm")
+    if cases:
+        for flag in (*AT_REST, "--frequency"):
+            if (typed := call.text(flag)) is not None:
+                raise rejected(flag, typed, "cannot be combined with --case")
+        loaded = powertrain.load_cases(cases)
+        return Shown(loaded.frames, loaded)
     frequency = call.optional("--frequency")
     modes = powertrain.modes(frequency)
     makers: dict[str, Any] = {name: partial(modes.frames.get, name) for name in modes.frames}

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 Products: TypeAlias = Literal["tensor", "positive-integrals"]
 Vector: TypeAlias = tuple[float, float, float]
 Rows: TypeAlias = tuple[Vector, Vector, Vector]
+Pair: TypeAlias = tuple[float, float]
+Sides: TypeAlias = tuple[Pair, Pair, Pair]
 
 THREE = "give three numbers"
 SIDES = (1e-3, 1e3)
@@ -275,6 +277,12 @@ class Mount(Input):
         Imaginary over real part of that in motion.
     rotational_damping : float or sequence of float, default 0.0
         Viscous damping about the axes, N·m·s/rad.
+    gap : float or sequence, default 0.0
+        Deflection of the mount, from no load, at which its snubbers touch, m: a number, one for
+        each axis, or for each axis a pair, against and along it.
+    snubber_stiffness : float or sequence, default 0.0
+        Stiffness that each snubber adds beyond its gap, N/m, as ``gap``; 0 is no snubber. In motion
+        those that act at rest count (:class:`Powertrain`), with the mount's loss factor.
 
     Raises
     ------
@@ -285,7 +293,7 @@ class Mount(Input):
     -----
     UserWarning
         If a stiffness seems to be in N/mm, damping in N·s/mm, a loss factor in per cent, or a place
-            in millimetres.
+            or a gap in millimetres.
 
     Examples
     --------
@@ -293,6 +301,8 @@ class Mount(Input):
     >>> right = cp.Mount("right", at=(0.28, 0, -0.1), stiffness=(2.2e5, 8e4, 8e4), tilt_deg=130)
     >>> right.replace(loss_factor=0.1).dynamic_at(20)[0]
     np.complex128(220000+22000j)
+    >>> cp.Mount("rear", (0, 0, 0.5), 1e5, gap=0.008, snubber_stiffness=[0, (9e5, 4e5), 0]).gap[1]
+    (0.008, 0.008)
     """
 
     name: str
@@ -308,6 +318,8 @@ class Mount(Input):
     rotational_stiffness: Vector
     rotational_loss_factor: Vector
     rotational_damping: Vector
+    gap: Sides
+    snubber_stiffness: Sides
 
     def __init__(
         self,
@@ -324,6 +336,8 @@ class Mount(Input):
         rotational_stiffness: ArrayLike = 0.0,
         rotational_loss_factor: ArrayLike = 0.0,
         rotational_damping: ArrayLike = 0.0,
+        gap: Any = 0.0,  # noqa: ANN401 - a number, three, or three pairs
+        snubber_stiffness: Any = 0.0,  # noqa: ANN401
     ) -> None:
         fields: dict[str, Any] = {"name": inputs.text("name", name), "at": _vector("at", at)}
         of_axes = {
@@ -338,6 +352,8 @@ class Mount(Input):
         for field, value in of_axes.items():
             is_left_out = value is None and field == "dynamic_stiffness"
             fields[field] = None if is_left_out else _along_axes(field, value)
+        fields["gap"] = _on_sides("gap", gap)
+        fields["snubber_stiffness"] = _on_sides("snubber_stiffness", snubber_stiffness)
         fields["tilt_deg"] = inputs.optional_number("tilt_deg", tilt_deg)
         fields["axes"] = None
         if axes is not None:
@@ -371,7 +387,13 @@ class Mount(Input):
             None if track is None else (track.stiffness, track.frequency, track.damping_ratio),
             self.table,
             (self.rotational_stiffness, self.rotational_loss_factor, self.rotational_damping),
+            (self.gap, self.snubber_stiffness),
         )
+
+    @property
+    def _is_snubbed(self) -> bool:
+        """True if it has snubbers."""
+        return any(any(pair) for pair in self.snubber_stiffness)
 
     def _warn(self) -> None:
         """Warn of figures in other units."""
@@ -380,7 +402,8 @@ class Mount(Input):
     @classmethod
     def _of(cls, figures: Any) -> Mount:  # noqa: ANN401 - as the core gives them
         """Return a mount of the core."""
-        name, at, direction, stiffness, dynamic, loss, damping, track, table, about = figures
+        name, at, direction, stiffness, dynamic, loss, damping, *further = figures
+        track, table, about, snubbers = further
         is_tilt = isinstance(direction, float)
         with suppressed():  # Warned of where it was given.
             return cls(
@@ -397,6 +420,8 @@ class Mount(Input):
                 rotational_stiffness=about[0],
                 rotational_loss_factor=about[1],
                 rotational_damping=about[2],
+                gap=snubbers[0],
+                snubber_stiffness=snubbers[1],
             )
 
     def dynamic_at(self, frequency: float) -> NDArray[np.complex128]:
@@ -435,6 +460,22 @@ def _along_axes(name: str, values: Any) -> Vector:  # noqa: ANN401 - a number or
         number = inputs.number(name, values)
         return (number, number, number)
     return _vector(name, values)
+
+
+def _on_sides(name: str, values: Any) -> Sides:  # noqa: ANN401 - a number, three, or three pairs
+    """Return pairs against and along each axis, of one number the same."""
+    hint = "give a number, or for each of three axes one, or a pair, against and along it"
+    entries = inputs.items(name, values, hint) if inputs.is_listed(values) else [values] * 3
+    if len(entries) != 3:
+        raise inputs.rejected(name, values, hint)
+    pairs = []
+    for axis, entry in enumerate(entries):
+        pair = inputs.items(name, entry, hint) if inputs.is_listed(entry) else [entry] * 2
+        if len(pair) != 2:
+            raise inputs.rejected(f"{name}[{axis}]", entry, hint)
+        against, along = (inputs.number(f"{name}[{axis}][{k}]", one) for k, one in enumerate(pair))
+        pairs.append((against, along))
+    return (pairs[0], pairs[1], pairs[2])
 
 
 def _table(rows: Any) -> tuple[tuple[float, ...], tuple[Any, ...]]:  # noqa: ANN401 - checked here

@@ -54,6 +54,9 @@ def figures(
         if any((*mount.rotational_stiffness, *mount.rotational_damping)):
             hint = "a page has mounts that resist no rotation by themselves"
             raise inputs.faulty(f"rotational_stiffness of mount {mount.name!r}", "is given", hint)
+        if mount._is_snubbed:
+            hint = "a page has mounts without snubbers: leave it out"
+            raise inputs.faulty(f"snubber_stiffness of mount {mount.name!r}", "is given", hint)
     inputs.warn_of_units(mean_piston_speed(engine, at))
     modes = powertrain.modes(frequency)
     return {

@@ -33,7 +33,7 @@ pub type Body = (f64, [f64; 3], [[f64; 3]; 3]);
 /// Frequencies, and complex stiffnesses along the three axes at them.
 pub type StiffnessTable = (Vec<f64>, Vec<[Complex64; 3]>);
 /// Name, place, orientation, static and dynamic stiffness, loss factor, damping, track, table; about the axes
-/// stiffness, loss factor and damping.
+/// stiffness, loss factor and damping; gap and stiffness of the snubbers against and along each.
 pub type Figures = (
     String,
     [f64; 3],
@@ -45,12 +45,22 @@ pub type Figures = (
     Option<(f64, f64, f64)>,
     Option<StiffnessTable>,
     [[f64; 3]; 3],
+    [[[f64; 2]; 3]; 2],
 );
+/// Gravity, acceleration of the vehicle, thrust and its place; torque that leaves the unit.
+type Case = ([[f64; 3]; 4], f64);
 /// Name, and at each frequency the displacement over the force at each coordinate.
 type Transfer = (String, Vec<Vec<[Complex64; 3]>>);
-/// Displacements by weight, torque and thrust, forces of all mounts by each, the margin of support, and the mounts at
-/// the corners of its polygon.
-type Static<'py> = ([[f64; 6]; 3], [Bound<'py, PyArray2<f64>>; 3], f64, Vec<usize>);
+/// Displacements by weight, torque and thrust, forces of all mounts by each, their deflection and forces of snubbers
+/// along their own axes, deflection along x, y and z, the margin of support, and the mounts at the corners of its
+/// polygon.
+type Static<'py> = (
+    [[f64; 6]; 3],
+    [Bound<'py, PyArray2<f64>>; 3],
+    [Bound<'py, PyArray2<f64>>; 3],
+    f64,
+    Vec<usize>,
+);
 /// Frequencies, shapes, energy and strain energy, then purity, loss factor and damped frequency, groups, and
 /// free motions in words.
 type Modes<'py> = (
@@ -166,6 +176,7 @@ fn figures(of: MountFigures) -> Figures {
         track,
         of.table.map(|table| (table.frequency, table.stiffness)),
         [of.rotational_stiffness, of.rotational_loss_factor, of.rotational_damping],
+        [of.gap, of.snubber_stiffness],
     )
 }
 
@@ -186,7 +197,7 @@ pub fn body((mass, cg, inertia): Body) -> core::Result<RigidBody> {
 pub fn mount(figures: Figures) -> core::Result<Mount> {
     let (name, at, orientation, stiffness, dynamic_stiffness, loss_factor, damping, track, ..) =
         figures;
-    let (.., table, about) = figures;
+    let (.., table, about, [gap, snubber_stiffness]) = figures;
     let [rotational_stiffness, rotational_loss_factor, rotational_damping] = about;
     let track = track.map(|(stiffness, frequency, damping_ratio)| InertiaTrack {
         stiffness,
@@ -211,7 +222,14 @@ pub fn mount(figures: Figures) -> core::Result<Mount> {
         rotational_stiffness,
         rotational_loss_factor,
         rotational_damping,
+        gap,
+        snubber_stiffness,
     })
+}
+
+fn load_case((vectors, torque): Case) -> mounts::LoadCase {
+    let [gravity, acceleration, thrust, thrust_at] = vectors;
+    mounts::LoadCase { gravity, acceleration, torque, thrust, thrust_at }
 }
 
 /// The tensor of a body's inertia and its principal moments.
@@ -354,16 +372,17 @@ pub struct Powertrain(Arc<mounts::Powertrain>);
 #[pymethods]
 impl Powertrain {
     #[new]
-    #[pyo3(signature = (body, mounts, support, forces=None))]
+    #[pyo3(signature = (body, mounts, support, forces=None, rest=None))]
     fn new(
         body: Body,
         mounts: Vec<Figures>,
         support: Option<Support>,
         forces: Option<&str>,
+        rest: Option<Case>,
     ) -> PyResult<Self> {
         let mounts = mounts.into_iter().map(mount).collect::<core::Result<_>>().or_raise()?;
-        let mut powertrain =
-            mounts::Powertrain::new(self::body(body).or_raise()?, mounts).or_raise()?;
+        let (body, rest) = (self::body(body).or_raise()?, rest.map(load_case).unwrap_or_default());
+        let mut powertrain = mounts::Powertrain::resting(body, mounts, rest).or_raise()?;
         if let Some(support) = support {
             powertrain = support.core().and_then(|core| powertrain.on(core)).or_raise()?;
         }
@@ -436,19 +455,34 @@ impl Powertrain {
         Ok((frozen(py, mass)?, frozen(py, stiffness)?))
     }
 
-    /// At rest, under gravity, a torque on the body about z, and a thrust at a place.
+    /// At rest under a case.
     #[pyo3(name = "static")]
-    fn at_rest<'py>(
-        &self,
-        py: Python<'py>,
-        gravity: [f64; 3],
-        torque: f64,
-        thrust: [[f64; 3]; 2],
-    ) -> PyResult<Static<'py>> {
-        let found = mounts::at_rest(&self.0, gravity, torque, thrust).or_raise()?;
-        let [weight, torque, thrust] = found.force.map(|force| frozen(py, Array2::from(force)));
+    fn at_rest<'py>(&self, py: Python<'py>, case: Case) -> PyResult<Static<'py>> {
+        let found = mounts::at_rest(&self.0, &load_case(case)).or_raise()?;
+        let array = |rows: Vec<[f64; 3]>| frozen(py, Array2::from(rows));
+        let [weight, torque, thrust] = found.force.map(array);
         let forces = [weight?, torque?, thrust?];
-        Ok((found.displacement, forces, found.support_margin, found.support_corners))
+        let own = [array(found.deflection)?, array(found.snubber_force)?, array(found.travel)?];
+        Ok((found.displacement, forces, own, found.support_margin, found.support_corners))
+    }
+
+    /// The case at whose state of rest snubbers are taken for what moves.
+    #[getter]
+    fn rest(&self) -> Case {
+        let mounts::LoadCase { gravity, acceleration, torque, thrust, thrust_at } = *self.0.rest();
+        ([gravity, acceleration, thrust, thrust_at], torque)
+    }
+
+    /// Whether a mount, or one of a subframe, has snubbers.
+    #[getter]
+    fn is_snubbed(&self) -> bool {
+        self.0.is_snubbed()
+    }
+
+    /// Stiffness of the snubbers against and along the axes of all mounts that act at rest, N/m.
+    #[getter]
+    fn contacts(&self) -> Vec<[[f64; 2]; 3]> {
+        self.0.all_mounts().map(Mount::contact).collect()
     }
 
     /// Deflection of each mount along its axes, of displacement of the CG and rotation: (`n_mounts`, 3, 6).

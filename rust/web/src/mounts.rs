@@ -1,6 +1,6 @@
 //! An engine's body on its mounts.
 
-use crankpin_core::mounts::{at_rest, modes};
+use crankpin_core::mounts::{LoadCase, at_rest, modes};
 use crankpin_core::{Error, Result};
 use serde_json::{Value, json};
 
@@ -14,13 +14,15 @@ pub fn mounts(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let powertrain = powertrain.ok_or_else(|| Error::value("powertrain", "none", hint))?;
     let frequency = arguments.optional("frequency")?;
     let gravity = arguments.or("gravity", [0.0, -9.806_65, 0.0])?;
-    let torque = arguments.or("torque", 0.0)?;
-    let thrust = arguments.or("thrust", [[0.0; 3]; 2])?;
+    let torque: f64 = arguments.or("torque", 0.0)?;
+    let [thrust, thrust_at] = arguments.or("thrust", [[0.0; 3]; 2])?;
     let found = modes(&powertrain, frequency)?;
     let columns = |matrix: &nalgebra::DMatrix<f64>| -> Vec<Vec<f64>> {
         matrix.column_iter().map(|column| column.iter().copied().collect()).collect()
     };
-    let still = at_rest(&powertrain, gravity, torque, thrust)?;
+    // The call has the torque on the body.
+    let case = LoadCase { gravity, torque: -torque, thrust, thrust_at, ..LoadCase::default() };
+    let still = at_rest(&powertrain, &case)?;
     Ok(json!({
         "mounts": powertrain.all_names(),
         "modes": {

@@ -165,6 +165,7 @@ NEEDED: dict[str, dict[str, Any]] = {
     "designs": {"rpm": [700.0], "vary": {"0": {"stiffness": [1e5, 2e5]}}, "orders": [1]},
     "velocity_feedback": {"actuator": SHAKER},
     "save_html": {"path": "page.html"},
+    "load_cases": {"cases": {"drive": {"torque": 100.0}}},
     "design_mounts": {"vary": "stiffness", "bounds": {"stiffness": (1e4, 1e6)}},
 }
 """Arguments without which a reading cannot be called."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from crankpin import _core
@@ -15,6 +16,7 @@ from crankpin._support.record import Input
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts import active, feedback, static_state
 from crankpin.analysis.mounts import design_responses as many
+from crankpin.analysis.mounts import load_cases as loaded
 from crankpin.analysis.mounts import modes as natural
 from crankpin.analysis.mounts import mount_sweep as swept
 from crankpin.analysis.mounts import response as forced
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.design_responses import DesignResponses
     from crankpin.analysis.mounts.feedback import VelocityFeedback
+    from crankpin.analysis.mounts.load_cases import LoadCases
     from crankpin.analysis.mounts.modes import MountModes, RollAxes
     from crankpin.analysis.mounts.mount_sweep import MountSweep
     from crankpin.analysis.mounts.response import MountResponse
@@ -68,12 +71,17 @@ class Powertrain(Framed, Input):
     forces : ForceTable or sequence of ForceTable, optional
         Tables of forces that shake the body besides the engine, such as those of a driven machine,
         or without one.
+    rest : mapping, optional
+        Arguments of :meth:`static` for the state about which the powertrain moves, of mounts with
+        snubbers: modes, response and all else of motion count the stiffness of those that act
+        there, the tangent stiffness. By default it rests under gravity; a receptance counts as
+        firm ground here.
 
     Raises
     ------
     InputError
-        If there is no mount, or two have one name, nothing shakes the body, or the support's
-        coordinates are at other mounts.
+        If there is no mount, or two have one name, nothing shakes the body, the support's
+        coordinates are at other mounts, or mounts with snubbers leave a motion free.
 
     Examples
     --------
@@ -97,6 +105,7 @@ class Powertrain(Framed, Input):
     mounts: tuple[Mount, ...]
     support: Support | None
     forces: tuple[ForceTable, ...]
+    rest: Mapping[str, Any] | None
 
     def __init__(
         self,
@@ -105,6 +114,7 @@ class Powertrain(Framed, Input):
         mounts: Iterable[Mount],
         support: Support | None = None,
         forces: ForceTable | Iterable[ForceTable] = (),
+        rest: Mapping[str, Any] | None = None,
     ) -> None:
         listed = [forces] if isinstance(forces, ForceTable) else forces
         tables = inputs.items("forces", listed, "give a list of crankpin.ForceTable")
@@ -128,9 +138,13 @@ class Powertrain(Framed, Input):
             raise inputs.rejected("support", carrier, hint)
         below = None if support is None else support._figures
         texts = ", ".join(table._text() for table in tables)
-        core = _core.Powertrain(body._figures, figures, below, f"[{texts}]")
         self.__dict__.update(engine=engine, body=body, mounts=tuple(entries), support=support)
-        self.__dict__.update(forces=tuple(tables), _powertrain=core)
+        case = static_state.UPRIGHT
+        if rest is not None:
+            case = static_state.named_case(self, "rest", rest)
+            rest = None if case == static_state.UPRIGHT else MappingProxyType(case._asdict())
+        core = _core.Powertrain(body._figures, figures, below, f"[{texts}]", case.figures)
+        self.__dict__.update(forces=tuple(tables), rest=rest, _powertrain=core)
 
     @property
     def _core(self) -> _core.Powertrain:
@@ -180,7 +194,17 @@ class Powertrain(Framed, Input):
 
     def _title_with(self, driven: str) -> str:
         """Return the name in titles, with what drives it besides the engine."""
-        return f"{labels.name_of(self)} on its mounts{driven}{self._carried}"
+        return f"{labels.name_of(self)} on its mounts{driven}{self._carried}{self._resting}"
+
+    @property
+    def _resting(self) -> str:
+        """State about which mounts with snubbers move, in titles."""
+        if not self._core.is_snubbed:
+            return ""
+        acting = static_state.snubbers_in_words(self._core.all_names, self._core.contacts)
+        under = "under gravity" if self.rest is None else "in the case given"
+        words = f"act: {', '.join(acting)}" if acting else "none acts"
+        return f", snubbers as at rest {under} ({words})"
 
     @property
     def _carried(self) -> str:
@@ -214,11 +238,14 @@ class Powertrain(Framed, Input):
         *,
         gear_ratio: float = 1.0,
         gravity: ArrayLike = static_state.GRAVITY,
+        acceleration: ArrayLike = static_state.STILL,
         rpm: float = 1000.0,
-        thrust: ArrayLike = (0.0, 0.0, 0.0),
-        thrust_at: ArrayLike = (0.0, 0.0, 0.0),
+        thrust: ArrayLike = static_state.STILL,
+        thrust_at: ArrayLike = static_state.STILL,
     ) -> StaticState:
         """Return sag, preloads and wind-up, with the static stiffness of the mounts.
+
+        Snubbers act beyond their gaps: the equilibrium is exact.
 
         Parameters
         ----------
@@ -233,6 +260,8 @@ class Powertrain(Framed, Input):
         gravity : sequence of float, default (0.0, -9.80665, 0.0)
             Acceleration of gravity in the engine's axes, m/s². Of an inclined engine it has another
             direction.
+        acceleration : sequence of float, default (0.0, 0.0, 0.0)
+            Acceleration of the vehicle in the engine's axes, m/s²: of braking against the motion.
         rpm : float, default 1000.0
             Crank speed at which the mean torque of the engine is read, rpm.
         thrust : sequence of float, default (0.0, 0.0, 0.0)
@@ -263,7 +292,55 @@ class Powertrain(Framed, Input):
         >>> p.static().preload[:, 1].round(4)
         array([-638.8332, -481.9268, -448.304 ])
         """
-        return static_state.static(self, torque, gear_ratio, gravity, rpm, thrust, thrust_at)
+        case = static_state.case_of(
+            self,
+            torque=torque,
+            gear_ratio=gear_ratio,
+            gravity=gravity,
+            acceleration=acceleration,
+            rpm=rpm,
+            thrust=thrust,
+            thrust_at=thrust_at,
+        )
+        return static_state.StaticState(self, *case)
+
+    def load_cases(self, cases: Mapping[str, Mapping[str, Any]]) -> LoadCases:
+        """Return travel and force of each mount at rest under several load cases.
+
+        Parameters
+        ----------
+        cases : mapping of str to mapping of str to object
+            Name of each case → arguments of :meth:`static`, such as ``torque``, ``gear_ratio``,
+            ``acceleration`` or ``gravity``; an empty one is rest under gravity.
+
+        Returns
+        -------
+        LoadCases
+            Travels and forces by case and mount, the worst case of each mount.
+
+        Raises
+        ------
+        InputError
+            If there is no case, an argument is out of range, a motion is free, the engine has no
+            cycle, or a receptance carries the mounts.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5, gap=0.006, snubber_stiffness=1e6)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> body = cp.RigidBody(mass=160, cg=(0.03, 0.1, 0.2), inertia=(7, 8, 4.5))
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> cases = p.load_cases(
+        ...     {"rest": {}, "first gear": {"torque": 150, "gear_ratio": 13}, "braking":
+        ...      {"acceleration": (0, 0, 8)}}
+        ... )
+        >>> cases.travel.dims, cases.sel(case="first gear").snubbers
+        (('case', 'all_mounts', 'axis'), ())
+        """
+        return loaded.load_cases(self, cases)
 
     def modes(self, frequency: float | None = None) -> MountModes:
         """Return the natural modes, with the dynamic stiffness of the mounts: six, or twelve.
@@ -818,5 +895,9 @@ class Powertrain(Framed, Input):
             mount._warn()
         engine = None if core_engine is None else Engine._read(core_engine)
         forces = [ForceTable._of(fields) for fields in json.loads(core.forces)]
+        vectors, torque = core.rest
+        gravity, acceleration, thrust, place = vectors
+        rest = {"gravity": gravity, "acceleration": acceleration, "torque": torque}
+        rest |= {"thrust": thrust, "thrust_at": place}
         with suppressed():
-            return cls(engine, body, mounts, support, forces)
+            return cls(engine, body, mounts, support, forces, rest=rest)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+import inspect
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -14,27 +16,130 @@ from crankpin.analysis.labelled import Labelled
 from crankpin.model.mounts import _vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable
 
     from numpy.typing import ArrayLike
 
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.quantity import Quantity
+    from crankpin.model.mounts import Vector
 
 GRAVITY = (0.0, -9.80665, 0.0)
 """Standard gravity of an upright engine, m/s²."""
+STILL = (0.0, 0.0, 0.0)
+"""No acceleration, no thrust, no place other than the origin."""
 
 
-class StaticState(Labelled):
+class AtRest(Labelled):
+    """What a powertrain at rest has, under one case or several."""
+
+    _registry = RESTING
+
+    if TYPE_CHECKING:
+        powertrain: Powertrain
+
+    @property
+    def _own_coords(self) -> Mapping[str, Any]:
+        names, count = tuple(self.powertrain._core.all_names), len(self.powertrain.mounts)
+        return {
+            "mount": names[:count],
+            "subframe_mount": names[count:],
+            "all_mounts": names,
+            "mount_axis": (1, 2, 3),
+        }
+
+    @property
+    def sag(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity under the weight, m: (…, n_axes)."""
+        return self._quantity("sag")
+
+    @property
+    def sag_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z under the weight, degrees: (…, n_axes)."""
+        return self._quantity("sag_deg")
+
+    @property
+    def wind_up(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity that the torque adds, m: (…, n_axes)."""
+        return self._quantity("wind_up")
+
+    @property
+    def wind_up_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z that the torque adds, degrees: (…, n_axes)."""
+        return self._quantity("wind_up_deg")
+
+    @property
+    def thrust_shift(self) -> Quantity[np.float64]:
+        """Displacement of the centre of gravity that the thrust adds, m: (…, n_axes)."""
+        return self._quantity("thrust_shift")
+
+    @property
+    def thrust_deg(self) -> Quantity[np.float64]:
+        """Rotation about x, y and z that the thrust adds, degrees: (…, n_axes)."""
+        return self._quantity("thrust_deg")
+
+    @property
+    def ground_preload(self) -> Quantity[np.float64]:
+        """Force of each mount of a subframe on what carries it, of all causes, N.
+
+        Of shape (…, n_mounts, n_axes); empty without a subframe.
+        """
+        return self._quantity("ground_preload")
+
+    @property
+    def weight_force(self) -> Quantity[np.float64]:
+        """Force of each mount on what carries it due to the weight, N: (…, n_mounts, n_axes)."""
+        return self._quantity("weight_force")
+
+    @property
+    def torque_force(self) -> Quantity[np.float64]:
+        """Force of each mount on what carries it due to the torque, N: (…, n_mounts, n_axes)."""
+        return self._quantity("torque_force")
+
+    @property
+    def thrust_force(self) -> Quantity[np.float64]:
+        """Force of each mount on what carries it due to the thrust, N: (…, n_mounts, n_axes)."""
+        return self._quantity("thrust_force")
+
+    @property
+    def preload(self) -> Quantity[np.float64]:
+        """Force of each mount on what carries it, of all causes, N: (…, n_mounts, n_axes)."""
+        return self._quantity("preload")
+
+    @property
+    def travel(self) -> Quantity[np.float64]:
+        """Deflection of each mount from no load, of all causes, m: (…, n_all_mounts, n_axes).
+
+        Of its end on the powertrain less that on what carries it, along x, y and z; mounts of a
+        subframe follow the others.
+        """
+        return self._quantity("travel")
+
+    @property
+    def deflection(self) -> Quantity[np.float64]:
+        """The same along the mount's own axes, m: (…, n_all_mounts, 3)."""
+        return self._quantity("deflection")
+
+    @property
+    def snubber_force(self) -> Quantity[np.float64]:
+        """Force of the snubbers of each mount on what carries it, N: (…, n_all_mounts, 3).
+
+        Along the mount's own axes, above zero of the one along the axis; 0 of those that do not
+        touch.
+        """
+        return self._quantity("snubber_force")
+
+
+class StaticState(AtRest):
     """A powertrain at rest on the static stiffness of its mounts, and of a subframe's.
 
-    What is above a subframe follows it as a rigid body: displacements are larger than on firm
-    ground, forces of the powertrain's mounts are the same.
+    Torque and thrust have what they add to the state under the weight, and to that under both:
+    where snubbers touch causes are no longer independent. What is above a subframe follows it as a
+    rigid body: displacements are larger than on firm ground, forces of the powertrain's mounts are
+    the same.
 
     Made by :meth:`Powertrain.static`.
     """
-
-    _registry = RESTING
 
     powertrain: Powertrain
     """The powertrain."""
@@ -42,26 +147,28 @@ class StaticState(Labelled):
     """Mean torque that leaves the unit, N·m, about +z: −torque acts on the body."""
     gravity: tuple[float, float, float]
     """Acceleration of gravity in the engine's axes, m/s²."""
-    thrust: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    thrust: tuple[float, float, float] = STILL
     """Force of a propeller's shaft on the unit, N."""
-    thrust_at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    thrust_at: tuple[float, float, float] = STILL
     """Place where it acts, m."""
+    acceleration: tuple[float, float, float] = STILL
+    """Acceleration of the vehicle in the engine's axes, m/s², which counts with the weight."""
     support_margin: float = computed()
     """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
 
-    Seen along gravity; above zero inside. Outside, some mount is pulled.
+    Seen along gravity, less the acceleration; above zero inside. Outside, some mount is pulled.
     """
     support_polygon: tuple[str, ...] = computed()
     """Names of the mounts at the corners of their polygon, seen along gravity, in order."""
 
     def __post_init__(self) -> None:
-        core = self.powertrain._core
-        push = [list(self.thrust), list(self.thrust_at)]
-        displacement, forces, margin, corners = core.static(list(self.gravity), -self.torque, push)
+        case = Case(self.torque, self.gravity, self.thrust, self.thrust_at, self.acceleration)
+        displacement, forces, own, margin, corners = self.powertrain._core.static(case.figures)
         of_mounts, count = np.array(forces), len(self.powertrain.mounts)
         moved = np.array(displacement)
         arrays = {"ground_preload": of_mounts[:, count:].sum(axis=0)}
         arrays["preload"] = of_mounts[:, :count].sum(axis=0)
+        arrays |= dict(zip(("deflection", "snubber_force", "travel"), own, strict=True))
         names = (("sag", "weight"), ("wind_up", "torque"), ("thrust_shift", "thrust"))
         for (name, cause), motion, pushed in zip(names, moved, of_mounts, strict=True):
             arrays[name] = motion[:3]
@@ -76,72 +183,17 @@ class StaticState(Labelled):
         super().__post_init__()
 
     @property
-    def _own_coords(self) -> Mapping[str, Any]:
-        names, count = tuple(self.powertrain._core.all_names), len(self.powertrain.mounts)
-        return {"mount": names[:count], "subframe_mount": names[count:]}
-
-    @property
-    def sag(self) -> Quantity[np.float64]:
-        """Displacement of the centre of gravity under the weight, m: (n_axes,)."""
-        return self._quantity("sag")
-
-    @property
-    def sag_deg(self) -> Quantity[np.float64]:
-        """Rotation about x, y and z under the weight, degrees: (n_axes,)."""
-        return self._quantity("sag_deg")
-
-    @property
-    def wind_up(self) -> Quantity[np.float64]:
-        """Displacement of the centre of gravity under the torque, m: (n_axes,)."""
-        return self._quantity("wind_up")
-
-    @property
-    def wind_up_deg(self) -> Quantity[np.float64]:
-        """Rotation about x, y and z under the torque, degrees: (n_axes,)."""
-        return self._quantity("wind_up_deg")
-
-    @property
-    def thrust_shift(self) -> Quantity[np.float64]:
-        """Displacement of the centre of gravity under the thrust, m: (n_axes,)."""
-        return self._quantity("thrust_shift")
-
-    @property
-    def thrust_deg(self) -> Quantity[np.float64]:
-        """Rotation about x, y and z under the thrust, degrees: (n_axes,)."""
-        return self._quantity("thrust_deg")
-
-    @property
-    def ground_preload(self) -> Quantity[np.float64]:
-        """Force of each mount of a subframe on what carries it, of all causes, N.
-
-        Of shape (n_mounts, n_axes); empty without a subframe.
-        """
-        return self._quantity("ground_preload")
-
-    @property
-    def weight_force(self) -> Quantity[np.float64]:
-        """Force of each mount on what carries it due to the weight, N: (n_mounts, n_axes)."""
-        return self._quantity("weight_force")
-
-    @property
-    def torque_force(self) -> Quantity[np.float64]:
-        """Force of each mount on what carries it due to the torque, N: (n_mounts, n_axes)."""
-        return self._quantity("torque_force")
-
-    @property
-    def thrust_force(self) -> Quantity[np.float64]:
-        """Force of each mount on what carries it due to the thrust, N: (n_mounts, n_axes)."""
-        return self._quantity("thrust_force")
-
-    @property
-    def preload(self) -> Quantity[np.float64]:
-        """Force of each mount on what carries it, of all causes, N: (n_mounts, n_axes)."""
-        return self._quantity("preload")
+    def snubbers(self) -> tuple[str, ...]:
+        """Snubbers that act: name of the mount, and the axis with the sense, as ``"rear −2"``."""
+        forces = self.read("snubber_force")
+        sides = np.stack([forces < 0.0, forces > 0.0], axis=-1)
+        return snubbers_in_words(self.powertrain._core.all_names, sides.tolist())
 
     @property
     def table(self) -> Table:
         """Forces of the mounts on what carries them, by cause; also of those of a subframe."""
         columns = [Column("mount", tuple(self.powertrain._core.all_names))]
+        acting = f" Snubbers act: {', '.join(self.snubbers)}." if self.snubbers else ""
         causes = ["weight", "torque", *(["thrust"] if any(self.thrust) else [])]
         for cause, forces in zip(causes, self.__dict__["_forces"], strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
@@ -153,7 +205,7 @@ class StaticState(Labelled):
             f"; wind-up {self.wind_up_deg[2]:.4g}° about z under ",
             units.figure(self.torque, "N·m", 6),
             f" that leave the unit. The CG is {side} the mounts' polygon by ",
-            units.figure(1e3 * abs(self.support_margin), "mm", 4), ". Static stiffness.",
+            units.figure(1e3 * abs(self.support_margin), "mm", 4), f". Static stiffness.{acting}",
         )  # fmt: skip
         name, carried = labels.name_of(self.powertrain), self.powertrain._carried
         on = f" on its mounts{carried}" if carried else ""
@@ -161,16 +213,76 @@ class StaticState(Labelled):
         return Table(title, tuple(columns), note)
 
 
-def static(
+def snubbers_in_words(
+    names: Iterable[str], sides: Iterable[Iterable[Iterable[Any]]]
+) -> tuple[str, ...]:
+    """Return names of snubbers, of what is true against and along each axis of each mount."""
+    return tuple(
+        f"{name} {sign}{axis}"
+        for name, of_mount in zip(names, sides, strict=True)
+        for axis, pair in enumerate(of_mount, 1)
+        for sign, acts in zip("−+", pair, strict=True)
+        if acts
+    )
+
+
+class Case(NamedTuple):
+    """What acts on a powertrain at rest, as :meth:`Powertrain.static` takes it."""
+
+    torque: float
+    gravity: Vector
+    thrust: Vector
+    thrust_at: Vector
+    acceleration: Vector
+
+    @property
+    def figures(self) -> tuple[list[list[float]], float]:
+        """The case as the core takes it."""
+        vectors = (self.gravity, self.acceleration, self.thrust, self.thrust_at)
+        return (list(map(list, vectors)), self.torque)
+
+
+def case_of(
     powertrain: Powertrain,
-    torque: float | Literal["engine"],
-    gear_ratio: float,
-    gravity: ArrayLike,
-    rpm: float,
-    thrust: ArrayLike,
-    thrust_at: ArrayLike,
-) -> StaticState:
-    """Return the state at rest; :meth:`Powertrain.static` documents the arguments."""
+    *,
+    torque: float | Literal["engine"] = 0.0,
+    gear_ratio: float = 1.0,
+    gravity: ArrayLike = GRAVITY,
+    acceleration: ArrayLike = STILL,
+    rpm: float = 1000.0,
+    thrust: ArrayLike = STILL,
+    thrust_at: ArrayLike = STILL,
+) -> Case:
+    """Return what acts, checked; :meth:`Powertrain.static` documents the arguments."""
+    return Case(
+        _leaving_torque(powertrain, torque, gear_ratio, rpm),
+        _vector("gravity", gravity),
+        _vector("thrust", thrust),
+        _vector("thrust_at", thrust_at),
+        _vector("acceleration", acceleration),
+    )
+
+
+UPRIGHT = Case(0.0, GRAVITY, STILL, STILL, STILL)
+"""Rest under standard gravity."""
+ARGUMENTS = tuple(inspect.signature(case_of).parameters)[1:]
+"""Names of what a case may have."""
+
+
+def named_case(powertrain: Powertrain, name: str, arguments: object) -> Case:
+    """Return a case of arguments by name, for an argument that is one, or has some."""
+    hint = f"give a mapping of arguments of Powertrain.static: {', '.join(ARGUMENTS)}"
+    if not isinstance(arguments, Mapping):
+        raise inputs.rejected(name, arguments, hint)
+    for key in arguments:
+        inputs.one_of(f"argument of {name}", key, ARGUMENTS)
+    return case_of(powertrain, **arguments)
+
+
+def _leaving_torque(
+    powertrain: Powertrain, torque: float | Literal["engine"], gear_ratio: float, rpm: float
+) -> float:
+    """Return the mean torque that leaves the unit, N·m."""
     leaving: Any = torque
     inputs.angular_speed(rpm)
     if isinstance(torque, str):
@@ -187,6 +299,4 @@ def static(
         raise inputs.rejected(
             "gear_ratio", 0.0, "give crank speed over output speed, such as 1 or 12.5"
         )
-    leaving = inputs.finite("torque", leaving) * ratio
-    places = (_vector("thrust", thrust), _vector("thrust_at", thrust_at))
-    return StaticState(powertrain, leaving, _vector("gravity", gravity), *places)
+    return inputs.finite("torque", leaving) * ratio

@@ -68,7 +68,7 @@ fn axes_of<const N: usize>(bodies: &Bodies<N>, frequency: Option<f64>) -> Result
         torque_roll: torque_roll.into(),
         torque_roll_deg: angle(&torque_roll, &crank),
         mount_distances: powertrain.mounts().iter().map(from_axis).collect(),
-        elastic: elastic(bodies, &bodies.static_stiffnesses(), &free)?,
+        elastic: elastic(bodies, &bodies.tangents(), &free)?,
         dynamic: elastic(bodies, &real(&dynamic), &free)?,
     })
 }

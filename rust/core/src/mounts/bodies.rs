@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3, Vector6};
 
 use super::modes::{NaturalModes, dynamic};
-use super::{Mount, Powertrain, Support, assembled};
+use super::{Powertrain, Support, assembled};
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
 
@@ -85,22 +85,9 @@ impl<const N: usize> Bodies<'_, N> {
         self.powertrain.all_springs().map(|spring| spring.static_stiffness()).collect()
     }
 
-    /// Force of a spring on what carries it, along x, y and z, of stiffness along its axes and a motion, and the
-    /// bound of its rounding, of that of the motion.
-    pub fn force(
-        &self,
-        (spring, of): (usize, &Mount),
-        along: &[f64; 3],
-        [motion, rounding]: [&SVector<f64, N>; 2],
-    ) -> [Vector3<f64>; 2] {
-        let (deflection, stiffness) = (&self.deflections[spring], Vector3::from(*along));
-        let axes = of.axes().transpose();
-        let of_motion = rounding + motion.abs() * (N as f64 * f64::EPSILON);
-        let of_deflection = deflection.abs() * of_motion;
-        [
-            axes * (deflection * motion).component_mul(&stiffness),
-            axes.abs() * of_deflection.component_mul(&stiffness),
-        ]
+    /// The same with that of snubbers that act at rest.
+    pub fn tangents(&self) -> Vec<[f64; 3]> {
+        self.powertrain.all_springs().map(|spring| spring.tangent()).collect()
     }
 
     /// An error where some motion is free.

@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    DIRECTIONS, ForceTable, Mount, MountFigures, Powertrain, Products, Receiver, Receptance,
-    RigidBody, Support, Table,
+    DIRECTIONS, ForceTable, LoadCase, Mount, MountFigures, Powertrain, Products, Receiver,
+    Receptance, RigidBody, Support, Table,
 };
 use crate::Complex64;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::is_default;
 use crate::numbers::limits;
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -22,6 +23,9 @@ pub(crate) struct PowertrainEntry {
     /// What shakes the body besides an engine.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     forces: Vec<ForceTable>,
+    /// The case at whose state of rest snubbers are taken for what moves.
+    #[serde(default, skip_serializing_if = "is_default")]
+    rest: LoadCase,
 }
 
 #[derive(Serialize, Deserialize, PartialEq)]
@@ -86,7 +90,8 @@ impl PowertrainEntry {
         };
         let mounts = powertrain.mounts().iter().map(|mount| mount.figures().clone()).collect();
         let (body, forces) = (BodyEntry::of(powertrain.body()), powertrain.forces().to_vec());
-        Self { body, mounts, subframe, receptance, forces }
+        let rest = *powertrain.rest();
+        Self { body, mounts, subframe, receptance, forces, rest }
     }
 
     /// The powertrain; `place` is its name in errors, and a point.
@@ -102,8 +107,8 @@ impl PowertrainEntry {
         let mounts = mounts
             .map(|(k, figures)| Mount::new(figures).map_err(within(&format!("mounts[{k}]."))));
         let body = body.map_err(within("body."))?;
-        let powertrain =
-            Powertrain::new(body, mounts.collect::<Result<_>>()?).map_err(within(""))?;
+        let powertrain = Powertrain::resting(body, mounts.collect::<Result<_>>()?, self.rest)
+            .map_err(within(""))?;
         let powertrain = powertrain.with_forces(self.forces).map_err(within(""))?;
         let support = match (self.subframe, self.receptance) {
             (None, None) => return Ok(powertrain),

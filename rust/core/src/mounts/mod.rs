@@ -7,6 +7,7 @@ mod axes;
 mod bodies;
 mod body;
 pub(crate) mod equations;
+mod equilibrium;
 mod feedback;
 pub(crate) mod file;
 mod footprint;
@@ -38,7 +39,7 @@ pub use self::robustness::{MountTolerances, Robustness, robustness};
 pub use self::roll::RollReaction;
 pub use self::severity::{GRADES, Levels, grade};
 pub use self::soil::{Base, Soil};
-pub use self::static_state::{Static, at_rest};
+pub use self::static_state::{LoadCase, Static, at_rest};
 pub use self::stiffness::{Dynamic, InertiaTrack, Table};
 pub use self::support::{Coordinate, DIRECTIONS, Receiver, Receptance, State, Support};
 use crate::Complex64;
@@ -91,11 +92,20 @@ pub struct Powertrain {
     coordinates: Vec<usize>,
     /// What shakes the body besides an engine.
     forces: Vec<ForceTable>,
+    /// The case at whose state of rest snubbers are taken for what moves.
+    rest: LoadCase,
 }
 
 impl Powertrain {
-    /// A body on at least one mount, whose names are distinct.
+    /// A body on at least one mount, whose names are distinct; snubbers are taken as at rest under standard gravity
+    /// along −y.
     pub fn new(body: RigidBody, mounts: Vec<Mount>) -> Result<Self> {
+        Self::resting(body, mounts, LoadCase::default())
+    }
+
+    /// The same with the case at whose state of rest snubbers are taken for what moves: those that act add their
+    /// stiffness.
+    pub fn resting(body: RigidBody, mounts: Vec<Mount>, rest: LoadCase) -> Result<Self> {
         if mounts.is_empty() || mounts.len() > MOST_MOUNTS {
             let hint = format!("give 1 to {MOST_MOUNTS} mounts");
             return Err(Error::value("mounts", format!("{} mounts", mounts.len()), hint));
@@ -113,7 +123,8 @@ impl Powertrain {
         let deflections = mounts.iter().map(deflection).chain(turned).collect();
         let (of_both, coordinates) = (Vec::new(), Vec::new());
         let forces = Vec::new();
-        Ok(Self {
+        rest.check()?;
+        let powertrain = Self {
             body,
             mounts,
             deflections,
@@ -122,7 +133,39 @@ impl Powertrain {
             of_both,
             coordinates,
             forces,
-        })
+            rest,
+        };
+        powertrain.settled()
+    }
+
+    /// The same with the snubbers that act at rest counted in motion; on a receptance as on what does not move.
+    fn settled(mut self) -> Result<Self> {
+        if !self.is_snubbed() {
+            return Ok(self);
+        }
+        let contacts = static_state::contacts(&self)?;
+        let (own, below) = contacts.split_at(self.mounts.len());
+        for (mount, contact) in self.mounts.iter_mut().zip(own) {
+            mount.settle(*contact)?;
+        }
+        if let Some(Support::Subframe(subframe)) = &mut self.support {
+            for (mount, contact) in subframe.mounts.iter_mut().zip(below) {
+                mount.settle(*contact)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Whether a mount, or one of a subframe, has snubbers.
+    #[must_use]
+    pub fn is_snubbed(&self) -> bool {
+        self.all_mounts().any(Mount::is_snubbed)
+    }
+
+    /// The case at whose state of rest snubbers are taken for what moves.
+    #[must_use]
+    pub fn rest(&self) -> &LoadCase {
+        &self.rest
     }
 
     /// The same with tables of forces that shake the body besides an engine.
@@ -318,11 +361,29 @@ impl Spring<'_> {
         if self.is_rotation { figures.rotational_stiffness } else { figures.stiffness }
     }
 
+    /// The same with that of snubbers that act at rest.
+    #[must_use]
+    pub fn tangent(&self) -> [f64; 3] {
+        self.with_contact(self.static_stiffness())
+    }
+
     /// Stiffness in motion without loss, N/m or N·m/rad; of a table the static one.
     #[must_use]
     pub fn in_motion(&self) -> [f64; 3] {
         let figures = self.mount.figures();
-        if self.is_rotation { figures.rotational_stiffness } else { figures.in_motion() }
+        if self.is_rotation {
+            return figures.rotational_stiffness;
+        }
+        self.with_contact(figures.in_motion())
+    }
+
+    fn with_contact(&self, mut along: [f64; 3]) -> [f64; 3] {
+        if !self.is_rotation {
+            for (stiffness, contact) in along.iter_mut().zip(self.mount.contact()) {
+                *stiffness += contact.into_iter().sum::<f64>();
+            }
+        }
+        along
     }
 
     /// How the stiffness depends on frequency.

@@ -55,6 +55,12 @@ pub struct MountFigures {
     /// Viscous damping about its axes, N·m·s/rad.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rotational_damping: [f64; 3],
+    /// Gaps of its snubbers against and along each axis, m, of the mount without load.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub gap: [[f64; 2]; 3],
+    /// Stiffness that each of them adds beyond its gap, N/m; 0 where there is none.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub snubber_stiffness: [[f64; 2]; 3],
 }
 
 /// A mount, checked.
@@ -65,6 +71,8 @@ pub struct Mount {
     dynamic: Dynamic,
     /// About the axes, where it resists rotation.
     rotation: Option<Dynamic>,
+    /// Stiffness of the snubbers against and along its axes that act at rest, N/m.
+    contact: [[f64; 2]; 3],
 }
 
 impl Mount {
@@ -82,7 +90,30 @@ impl Mount {
         let dynamic = figures.dynamic()?;
         dynamic.check()?;
         let rotation = figures.rotation()?;
-        Ok(Self { figures, axes, dynamic, rotation })
+        figures.check_snubbers()?;
+        Ok(Self { figures, axes, dynamic, rotation, contact: [[0.0; 2]; 3] })
+    }
+
+    /// Whether it has snubbers.
+    #[must_use]
+    pub fn is_snubbed(&self) -> bool {
+        self.figures.snubber_stiffness != [[0.0; 2]; 3]
+    }
+
+    /// Counts the stiffness of the snubbers that act at rest in motion.
+    pub(super) fn settle(&mut self, contact: [[f64; 2]; 3]) -> Result<()> {
+        if contact != self.contact {
+            self.dynamic = self.figures.dynamic()?;
+            self.dynamic.stiffen(contact.map(|[against, along]| against + along));
+            self.contact = contact;
+        }
+        Ok(())
+    }
+
+    /// Stiffness of the snubbers against and along its axes that act at rest, N/m.
+    #[must_use]
+    pub fn contact(&self) -> [[f64; 2]; 3] {
+        self.contact
     }
 
     /// Stiffness about its axes, N·m/rad, where it resists rotation: the same at any frequency but for its damping.
@@ -166,6 +197,19 @@ impl MountFigures {
     #[must_use]
     pub fn in_motion(&self) -> [f64; 3] {
         self.dynamic_stiffness.unwrap_or(self.stiffness)
+    }
+
+    fn check_snubbers(&self) -> Result<()> {
+        for (name, figures) in [("gap", self.gap), ("snubber_stiffness", self.snubber_stiffness)] {
+            let places = (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]);
+            let wrong = |&(axis, side): &(usize, usize)| {
+                limits::not_negative("", figures[axis][side]).is_err()
+            };
+            if let Some((axis, side)) = places.into_iter().find(wrong) {
+                limits::not_negative(&format!("{name}[{axis}][{side}]"), figures[axis][side])?;
+            }
+        }
+        Ok(())
     }
 
     /// Stiffness about its axes, if it has any.

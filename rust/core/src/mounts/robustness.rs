@@ -119,7 +119,8 @@ fn evaluated<const N: usize>(
     let by_stiffness = [-1.0, 1.0].map(|sign| natural(&bodies, &scaled(sign)).frequency().to_vec());
     let body = powertrain.body();
     let of_body = |body| {
-        let mut other = Powertrain::new(body, powertrain.mounts().to_vec())?;
+        let mut other =
+            Powertrain::resting(body, powertrain.mounts().to_vec(), *powertrain.rest())?;
         if let Some(support) = powertrain.support() {
             other = other.on(support.clone())?;
         }

@@ -188,6 +188,24 @@ impl Dynamic {
         }
     }
 
+    /// Adds stiffness along the axes, N/m, with the loss factors; elastic beside a table.
+    pub fn stiffen(&mut self, by: [f64; 3]) {
+        match self {
+            Self::Table(table) => {
+                for along in &mut table.stiffness {
+                    for (value, by) in along.iter_mut().zip(by) {
+                        value.re += by;
+                    }
+                }
+            }
+            Self::Constant { stiffness, .. } => {
+                for (value, by) in stiffness.iter_mut().zip(by) {
+                    *value += by;
+                }
+            }
+        }
+    }
+
     /// First and last frequency at which it is known, Hz.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {

@@ -197,6 +197,10 @@ impl Powertrain {
                 let hint = "give them to the powertrain that it carries";
                 return Err(Error::value("support", "a subframe with forces", hint));
             }
+            Support::Subframe(subframe) if subframe.rest != super::LoadCase::default() => {
+                let hint = "give it to the powertrain that it carries";
+                return Err(Error::value("support", "a subframe with a state at rest", hint));
+            }
             Support::Subframe(subframe) => {
                 let cg = subframe.body.cg();
                 let mut both = |above: &Matrix3x6<f64>, below: &Matrix3x6<f64>| {
@@ -241,7 +245,7 @@ impl Powertrain {
             }
         }
         self.support = Some(support);
-        Ok(self)
+        self.settled()
     }
 
     /// What carries the mounts, if it gives way.

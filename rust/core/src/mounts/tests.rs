@@ -107,8 +107,7 @@ fn three_mounts_carry_by_statics_alone() {
     let places = [[0.3, 0.0, 0.0], [-0.3, 0.0, 0.0], [0.0, 0.0, 0.7]];
     for stiffness in [[2e5; 3], [1e5, 3e5, 2e5]] {
         let mounts = places.iter().enumerate().map(|(k, &at)| mount(&k.to_string(), at, stiffness));
-        let found =
-            at_rest(&powertrain(body, mounts), [0.0, -9.806_65, 0.0], 0.0, [[0.0; 3]; 2]).unwrap();
+        let found = at_rest(&powertrain(body, mounts), &LoadCase::default()).unwrap();
         for (force, expected) in found.force[0].iter().zip([638.8332, 481.9268, 448.304]) {
             // Printed with a step of half a unit of the fourth decimal.
             assert!((force[1] + expected).abs() < 5.1e-5, "{force:?}");
@@ -146,8 +145,16 @@ fn forces_that_symmetry_forbids_are_zero_and_small_ones_are_not() {
             powertrain(body, mounts)
         };
         let rest = |of: &Powertrain| {
-            let thrust = [[0.0, 0.0, 50.0 * scale], [0.0, -0.1, 0.0]];
-            at_rest(of, [0.0, -9.8, 0.0], 100.0 * scale, thrust).unwrap()
+            let (thrust, thrust_at) = ([0.0, 0.0, 50.0 * scale], [0.0, -0.1, 0.0]);
+            let gravity = [0.0, -9.8, 0.0];
+            let case = LoadCase {
+                gravity,
+                torque: -100.0 * scale,
+                thrust,
+                thrust_at,
+                ..LoadCase::default()
+            };
+            at_rest(of, &case).unwrap()
         };
         let found = rest(&mounted(0.0));
         for cause in [0, 2] {
@@ -165,7 +172,8 @@ fn forces_that_symmetry_forbids_are_zero_and_small_ones_are_not() {
         let moved = rest(&mounted(1e-6)).displacement[0];
         assert!([moved[0], moved[4], moved[5]].iter().all(|part| *part != 0.0), "{moved:?}");
     }
-    let upright = at_rest(&four_mounts(0.0), [0.0, -9.8, 0.0], 100.0, [[0.0; 3]; 2]).unwrap();
+    let upright =
+        at_rest(&four_mounts(0.0), &LoadCase { torque: -100.0, ..LoadCase::default() }).unwrap();
     for (weight, torque) in upright.force[0].iter().zip(&upright.force[1]) {
         assert!(weight[0] == 0.0 && weight[1] < 0.0 && weight[2] == 0.0 && torque[2] == 0.0);
     }
@@ -197,9 +205,7 @@ fn what_no_mount_resists_is_named() {
     assert!(found.frequency[1] > 1.0 && found.free.len() == 1);
     let words = found.free[0].in_words();
     assert!(words.starts_with("rotation about the line through (0, 0.1, 0) m along ("), "{words}");
-    let error = at_rest(&powertrain(body, two), [0.0, -9.8, 0.0], 0.0, [[0.0; 3]; 2])
-        .unwrap_err()
-        .to_string();
+    let error = at_rest(&powertrain(body, two), &LoadCase::default()).unwrap_err().to_string();
     assert!(error.contains("mounts = a, b: rotation about the line"), "{error}");
     let upright = (0..3).map(|k| {
         let k = f64::from(k);
@@ -336,7 +342,15 @@ fn bodies_on_a_subframe_have_twelve_modes_and_the_preloads_of_firm_ground() {
         assert_eq!(found.strain.len(), on.all_names().len());
         // What is above follows the subframe as a rigid body: its mounts feel the same forces at rest.
         let rest = |of: &Powertrain| {
-            at_rest(of, [1.0, -9.8, 2.0], 30.0, [[5.0, 0.0, 50.0], [0.0, -0.1, 0.0]]).unwrap()
+            let (thrust, thrust_at) = ([5.0, 0.0, 50.0], [0.0, -0.1, 0.0]);
+            let case = LoadCase {
+                gravity: [1.0, -9.8, 2.0],
+                torque: -30.0,
+                thrust,
+                thrust_at,
+                ..LoadCase::default()
+            };
+            at_rest(of, &case).unwrap()
         };
         let (firm, soft) = (rest(&above), rest(&on));
         for (firm, soft) in firm.force.iter().zip(&soft.force) {

@@ -16,6 +16,8 @@ const STIFFNESS: [f64; 2] = [1e3, 1e12];
 ///
 /// Of all bodies of one density a ball has the most: 16.7 times the density.
 const DENSEST: f64 = 4e5;
+/// Gap of a snubber, m, above which it is not in metres.
+const LARGEST_GAP: f64 = 0.5;
 /// Damping of a mount over its stiffness, s: less is a loss of 1 % at 160 Hz, below any spring's.
 const LEAST_DAMPING: f64 = 1e-5;
 /// Loss factor of a mount above which it is likely in per cent: rubber reaches about 1.
@@ -104,7 +106,13 @@ pub fn mount(figures: &MountFigures) -> Vec<Warning> {
     if 0.0 < largest && largest < least {
         report("damping", largest, " N·s/m", "was it given in N·s/mm?");
     }
+    let gaps = figures.gap.as_flattened();
+    if let Some(&gap) = gaps.iter().find(|&&gap| gap > LARGEST_GAP) {
+        report("gap", gap, " m", "was it given in millimetres?");
+    }
     found.extend(stiffness("stiffness", name, &figures.stiffness));
+    let snubbers = figures.snubber_stiffness.as_flattened();
+    found.extend(stiffness("snubber_stiffness", name, snubbers));
     found.extend(stiffness(
         "dynamic_stiffness",
         name,

@@ -191,7 +191,7 @@ fn varied(base: &Powertrain, variations: &[Variation], design: usize) -> Result<
         mounts[variation.mount] =
             Mount::new(figures).map_err(|error| error.within(&format!("mount {name:?}: ")))?;
     }
-    Powertrain::new(*base.body(), mounts)
+    Powertrain::resting(*base.body(), mounts, *base.rest())
 }
 
 impl<'a> Shared<'a> {
@@ -207,7 +207,9 @@ impl<'a> Shared<'a> {
         let (lanes, orders) = (speeds.len().div_ceil(LANES), amplitudes.len());
         let is_varying = |&k: &usize| base.mounts()[k].dynamic().constant().is_none();
         let varying: Vec<usize> = (0..base.mounts().len()).filter(is_varying).collect();
-        let is_varied = |&k: &usize| variations.iter().any(|one| one.mount == varying[k]);
+        // Which snubbers act at rest differs with any mount.
+        let is_varied =
+            |&k: &usize| base.is_snubbed() || variations.iter().any(|one| one.mount == varying[k]);
         let varied = (0..varying.len()).filter(is_varied).collect();
         let lengths = [lanes * orders, 1 + 6 * varying.len(), LANES];
         limits::result_size("designs", &lengths, size_of::<f64>(), "give fewer speeds or orders")?;

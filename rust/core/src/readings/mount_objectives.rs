@@ -82,7 +82,7 @@ impl MountObjectives {
             }
             mounts[place] = Mount::new(figures)?;
         }
-        let powertrain = Powertrain::new(*self.base.body(), mounts)?;
+        let powertrain = Powertrain::resting(*self.base.body(), mounts, *self.base.rest())?;
         let powertrain = powertrain.with_forces(self.base.forces().to_vec())?;
         match self.base.support() {
             Some(support) => powertrain.on(support.clone()),
