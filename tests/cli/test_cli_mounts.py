@@ -316,7 +316,7 @@ def test_modes_and_response_are_about_a_case(tmp_path: Path, capsys: CAPTURE) ->
     text = printed(capsys, path, "--rpm", 3000, "--orders", 2, *typed, "--csv")
     head, row, *_ = csv.reader(io.StringIO(text))
     peak = drive.response(3000, orders=[2]).body_force[2].peak
-    assert float(row[head.index("longest N")]) == pytest.approx(peak, rel=1e-12)
+    assert float(row[head.index("|F| N")]) == pytest.approx(peak, rel=1e-12)
     assert whole.modes().table.text() in printed(capsys, path)
 
 
