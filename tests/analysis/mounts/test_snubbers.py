@@ -149,8 +149,8 @@ def test_limits_are_springs(seed: int) -> None:
     np.testing.assert_allclose(frequencies[0], frequencies[1], rtol=1e-12)
 
 
-def test_three_mounts_bear_what_statics_says() -> None:
-    """Three mounts bear a weight by statics alone, snubbed or not."""
+def test_three_mounts_bear_a_weight_by_equilibrium_alone() -> None:
+    """Three mounts bear a weight by equilibrium alone, snubbed or not."""
     body = cp.RigidBody(160, (0.03, 0.1, 0.2), (7, 8, 4.5))
     mounts = [
         cp.Mount(name, at, 2e5, gap=[0, (0.0023, 0), 0], snubber_stiffness=[0, (8e5, 0), 0])
