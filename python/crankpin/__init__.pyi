@@ -21,6 +21,7 @@ from crankpin.analysis.gas_exchange import PortTiming as PortTiming
 from crankpin.analysis.gas_exchange import ValveTiming as ValveTiming
 from crankpin.analysis.guide_moments import guide_moments as guide_moments
 from crankpin.analysis.locomotive import Locomotive as Locomotive
+from crankpin.analysis.mounts.compare_mounts import compare_mounts as compare_mounts
 from crankpin.analysis.mounts.design_mounts import design_mounts as design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain as Powertrain
 from crankpin.analysis.operating_map import operating_map as operating_map
@@ -38,6 +39,7 @@ from crankpin.analysis.torsional_excitation import torsional_excitation as torsi
 from crankpin.analysis.turning_moment import stroke_load as stroke_load
 from crankpin.analysis.turning_moment import turning_moment_areas as turning_moment_areas
 from crankpin.model.actuators import Actuator as Actuator
+from crankpin.model.base_motion import BaseMotion as BaseMotion
 from crankpin.model.cycle import Cycle as Cycle
 from crankpin.model.cycle_map import CycleMap as CycleMap
 from crankpin.model.cylinder import Cylinder as Cylinder

@@ -26,6 +26,7 @@ from crankpin.analysis.locomotive_forces import LocomotiveForces as LocomotiveFo
 from crankpin.analysis.mounts.active import Cancellation as Cancellation
 from crankpin.analysis.mounts.active import DrivenResponse as DrivenResponse
 from crankpin.analysis.mounts.adaptive import AdaptiveLaw as AdaptiveLaw
+from crankpin.analysis.mounts.compare_mounts import MountComparison as MountComparison
 from crankpin.analysis.mounts.design_mounts import MountDesign as MountDesign
 from crankpin.analysis.mounts.design_responses import DesignResponses as DesignResponses
 from crankpin.analysis.mounts.feedback import VelocityFeedback as VelocityFeedback
@@ -33,6 +34,7 @@ from crankpin.analysis.mounts.load_cases import LoadCases as LoadCases
 from crankpin.analysis.mounts.modes import MountModes as MountModes
 from crankpin.analysis.mounts.modes import RollAxes as RollAxes
 from crankpin.analysis.mounts.mount_sweep import MountSweep as MountSweep
+from crankpin.analysis.mounts.response import BaseResponse as BaseResponse
 from crankpin.analysis.mounts.response import MountResponse as MountResponse
 from crankpin.analysis.mounts.response import OrderResponse as OrderResponse
 from crankpin.analysis.mounts.response import PointMotion as PointMotion

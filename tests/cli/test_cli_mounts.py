@@ -336,3 +336,88 @@ def test_wrong_cases_are_named(
     car: Path, options: tuple[str, ...], words: str, capsys: CAPTURE
 ) -> None:
     assert words in failed(capsys, car, *options)
+
+
+# --- a base that moves, and two files -------------------------------------------------------------
+
+
+def test_a_base_is_that_of_the_library(car: Path, tmp_path: Path, capsys: CAPTURE) -> None:
+    text = printed(capsys, car, "--base", "y=0.1mm,rz=1e-4rad", "--base-hz", "5:25:10",
+                   "--base-about", "0,100mm,0")  # fmt: skip
+    rows = dict.fromkeys((5.0, 15.0, 25.0), (0, 1e-4, 0, 0, 0, 1e-4))
+    floor = cp.BaseMotion(rows, about=(0, 0.1, 0))
+    assert CAR.response(base=floor).table.text() in text
+    path = tmp_path / "hull.csv"
+    path.write_text("order,x [g],phase x [deg]\n1,0.1,90\n2,0.2,0\n")
+    hull = cp.BaseMotion.from_csv(path)
+    text = printed(capsys, car, "--rpm", 900, "--base", path, "--orders", "1,2")
+    table = CAR.response(900, orders=[1, 2], base=hull).table.text()
+    assert "\n".join(table.splitlines()[:-1]) in text  # the loads stand at the end
+    picture = tmp_path / "floor.png"
+    text = printed(capsys, car, "--base", "y=1mm/s", "--base-hz", "5:40:1", "--at", "0,0.3,0",
+                   "--plot", picture)  # fmt: skip
+    floor = cp.BaseMotion(dict.fromkeys(range(5, 41), (0, 1e-3, 0)), "velocity")
+    assert CAR.response(base=floor).at((0, 0.3, 0)).table.text() in text
+    assert picture.stat().st_size > 5000
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [
+        (["--base", "y=0.1mm"], "--base-hz is left out: give the frequencies of --base, Hz"),
+        (["--base-hz", "5"], "--base-hz = 5: needs --base"),
+        (["--base-about", "0,0,1"], "--base-about = 0,0,1: needs --base"),
+        (["--base", "up=1mm", "--base-hz", "5"], "--base = up=1mm: give x, y, z, rx, ry, rz and"),
+        (["--base", "y=1", "--base-hz", "5:6:1e-6"], "give"),
+        (["--base", "y=1mm,z=1g", "--base-hz", "5"], "give amounts of one motion"),
+        (["--base", "y=1furlong", "--base-hz", "5"], "--base = 'furlong': give a unit of m, cm"),
+        (["--base", "none.csv"], "none.csv"),
+        (["--base", "y=1mm", "--base-hz", "5", "--rpm", "900"], "leave it out: the base moves by"),
+        (["--base", "y=1mm", "--base-hz", "5", "--factor", "0:1:0.5", "--rpm", "9"], "--factor"),
+        (["OTHER", "--base", "y=1mm", "--base-hz", "5"], "cannot be combined with OTHER"),
+        (["OTHER"], "--rpm is left out: two files are compared at crank speeds"),
+        (["OTHER", "--rpm", "900", "--torque", "3"], "--torque = 3: cannot be combined with OTHER"),
+    ],
+)
+def test_errors_of_bases_name_the_option(
+    car: Path, capsys: CAPTURE, typed: list[str], hint: str
+) -> None:
+    assert hint in failed(capsys, car, *(str(car) if word == "OTHER" else word for word in typed))
+
+
+def test_two_files_stand_beside_each_other(car: Path, tmp_path: Path, capsys: CAPTURE) -> None:
+    soft = CAR.replace(mounts=[CAR.mounts[0].replace(stiffness=5e4), *CAR.mounts[1:]])
+    soft.save(path := tmp_path / "soft.toml")
+    text = printed(capsys, car, path, "--rpm", 850, "--at", "0,0.3,0", "--orders", "0.5,2")
+    both = cp.compare_mounts(CAR, soft, 850, orders=[0.5, 2], at=(0, 0.3, 0))
+    assert both.table.text() in text
+    text = printed(capsys, car, path, "--rpm", "800:1000:100", "--misfire", 2)
+    one, other = (each.with_misfire(cylinder=2) for each in (CAR, soft))
+    assert cp.compare_mounts(one, other, [800, 900, 1000]).table.text() in text
+
+
+def test_a_comparison_has_the_figures_of_both() -> None:
+    soft = CAR.replace(
+        mounts=[m.replace(stiffness=0.5 * np.array(m.stiffness)) for m in CAR.mounts]
+    )
+    both = cp.compare_mounts(CAR, soft, 900, at=(0, 0.3, 0))
+    first, second = both.before, both.after
+    assert first.orders == second.orders
+    assert {*CAR.response(900).orders, *soft.response(900).orders} == {*both.orders}
+    table = both.table
+    assert table["before"].values[0] == first.body_force[both.orders[0]].peak
+    force = [k for k, name in enumerate(table["quantity"].values) if name == "force on the body"]
+    assert table["after"].values[force[-1]] == second.body_force.total.peak
+    ratio = second.body_force.total.peak / first.body_force.total.peak
+    assert table.columns[-2].values[force[-1]] == pytest.approx(100 * (ratio - 1), rel=1e-12)
+    assert table.columns[-1].values[force[-1]] == pytest.approx(20 * np.log10(ratio), rel=1e-12)
+    velocity = second.at((0, 0.3, 0)).velocity.total.peak
+    assert table["after"].values[-1] == 1e3 * velocity
+    expected = np.asarray(second.body_force.peak) / np.asarray(first.body_force.peak) - 1
+    np.testing.assert_allclose(both.change(), expected, rtol=1e-9)
+    assert both.change("velocity").shape == expected.shape
+    assert (cp.compare_mounts(CAR, CAR, 900).change() == 0.0).all()
+    with pytest.raises(cp.InputError, match=r"quantity = .velocity"):
+        cp.compare_mounts(CAR, soft, 900).change("velocity")
+    with pytest.raises(cp.InputError, match=r"after = 3: give a crankpin\.Powertrain"):
+        cp.compare_mounts(CAR, 3, 900)  # type: ignore[arg-type]

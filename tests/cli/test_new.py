@@ -465,3 +465,77 @@ def test_an_engine_is_told_in_the_units_that_were_typed(capsys: CAPTURE) -> None
     assert main([*typed, "--units", "mm,g"]) == 0
     told = capsys.readouterr().out
     assert "stroke 96.8375 mm, rod 188.913 mm, reciprocating mass 670.939 g" in told
+
+
+# --- on mounts ------------------------------------------------------------------------------------
+
+
+def test_a_body_and_all_that_mounts_have(capsys: CAPTURE) -> None:
+    Path("rubber.csv").write_text("Hz,re,im\n1,1e5,1e4\n100,2e5,3e4\n")
+    rows = [
+        [hertz, *(part for k in range(3) for part in ((k + 1) * f, 0.1 * f))]
+        for hertz, f in ((1, 1e5), (9, 2e5))
+    ]
+    lines = [",".join(map(str, row)) for row in rows]
+    Path("each.csv").write_text("\n".join(["Hz,a,b,c,d,e,f", *lines]))
+    bushing = "rotation=200,100,50:rotation-damping=1,2,3:rotation-loss=0.05:damping=150,200,150"
+    mounts = [
+        f"right:0.28,0,-0.09:220000,80000,80000:0.1,0.2,0.3:tilt=45:{bushing}",
+        "left:-0.28,0,-0.09:2e5:dynamic=3e5,1e5,1e5:axes=0,1,0,-1,0,0,0,0,1",
+        "front:0,-0.1,-0.3:1e5:track=1.8e5,10,0.25:rotation=70",
+        "rear:0,-0.12,0.55:1e5:table=rubber.csv",
+        "low:0,-0.3,0.55:1e5:table=each.csv",
+        "stop:0,-0.3,0.2:1e5:gap=0.01,0.02,0.01,0.02,0.01,0.01:snubber=9e5,9e5,0",
+    ]
+    typed = " ".join(f"--mount {mount}" for mount in mounts)
+    body = "148:20mm,70mm,90mm:8.1,7.6,4.9,0.1,-0.2,0.3:tensor"
+    said = printed(capsys, f"new i4 --body {body} {typed} -o car.toml")
+    assert said.endswith("Written to car.toml: try crankpin mounts car.toml\n")
+    found = cp.Powertrain.load("car.toml")
+    inertia = [[8.1, 0.1, -0.2], [0.1, 7.6, 0.3], [-0.2, 0.3, 4.9]]
+    assert found.body == cp.RigidBody(148, (0.02, 0.07, 0.09), inertia, products="tensor")
+    table = ([1.0, 100.0], np.repeat([[1e5 + 1e4j], [2e5 + 3e4j]], 3, axis=1))
+    each = ([1.0, 9.0], [[(k + 1) * f + 0.1j * f for k in range(3)] for f in (1e5, 2e5)])
+    assert found.mounts == (
+        cp.Mount(
+            "right", (0.28, 0, -0.09), (2.2e5, 8e4, 8e4), 45.0, loss_factor=(0.1, 0.2, 0.3),
+            damping=(150, 200, 150), rotational_stiffness=(200, 100, 50),
+            rotational_loss_factor=0.05, rotational_damping=(1, 2, 3),
+        ),
+        cp.Mount(
+            "left", (-0.28, 0, -0.09), 2e5, axes=[[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
+            dynamic_stiffness=(3e5, 1e5, 1e5),
+        ),
+        cp.Mount("front", (0, -0.1, -0.3), 1e5, track=cp.InertiaTrack(1.8e5, 10, 0.25),
+                 rotational_stiffness=70),
+        cp.Mount("rear", (0, -0.12, 0.55), 1e5, table=table),
+        cp.Mount("low", (0, -0.3, 0.55), 1e5, table=each),
+        cp.Mount("stop", (0, -0.3, 0.2), 1e5, gap=[(0.01, 0.02), (0.01, 0.02), 0.01],
+                 snubber_stiffness=[9e5, 9e5, 0]),
+    )  # fmt: skip
+    Path("again.toml").write_text(printed(capsys, f"new i4 --body {body} {typed}"), "utf-8")
+    assert cp.Powertrain.load("again.toml").replace(engine=found.engine) == found
+    integrals = body.replace("tensor", "positive-integrals")
+    printed(capsys, f"new i4 --body {integrals} {typed} -o other.toml")
+    assert cp.Powertrain.load("other.toml").body.inertia[0][2] == 0.2
+    assert "N·m/rad" in printed(capsys, "mounts car.toml --frequency 5 --frame mounts")
+
+
+@pytest.mark.parametrize(
+    ("body", "mount", "said"),
+    [
+        ("1:0,0,0:1,1", "a:0,0,0:1e5", "--body = 1:0,0,0:1,1: give MASS:X,Y,Z:IX,IY,IZ or"),
+        ("1:0,0,0:1,1,1:tensor", "a:0,0,0:1e5", "--body = 1:0,0,0:1,1,1:tensor: give MASS"),
+        ("1:0,0,0:1,1,1,0.1,0,0", "a:0,0,0:1e5", "products = None"),
+        ("1:0,0,0:1,1,1", "a:0,0,0", "--mount = a:0,0,0: give NAME:X,Y,Z:K"),
+        ("1:0,0,0:1,1,1", "a:0,0,0:1e5:bounce=3", "give fields of tilt, axes, dynamic, damping"),
+        ("1:0,0,0:1,1,1", "a:0,0,0:1e5:axes=1,0,0", "give 9 numbers of axes"),
+        ("1:0,0,0:1,1,1", "a:0,0,0:1e5:damping=1,2", "give 3 numbers of damping"),
+        ("1:0,0,0:1,1,1", "a:0,0,0:1e5:table=none.csv", "none.csv"),
+        ("1:0,0,0:1,1,1", "a:0,0,0:1e5:rotation=-1", "rotational_stiffness"),
+    ],
+)
+def test_bodies_and_mounts_that_are_none_are_named(
+    capsys: CAPTURE, body: str, mount: str, said: str
+) -> None:
+    assert said in refused(capsys, f"new i4 --body {body} --mount {mount}")

@@ -132,6 +132,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Mount",
         "RigidBody",
         "ForceTable",
+        "BaseMotion",
         "Powertrain",
         "Powertrain on a subframe",
         "Powertrain on a receptance",
@@ -237,7 +238,7 @@ INPUTS = (
     cp.ValveTiming, cp.LinkRod, cp.LinkRods,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
-    cp.ForceTable, cp.Soil, cp.Locomotive,
+    cp.ForceTable, cp.BaseMotion, cp.Soil, cp.Locomotive,
 )  # fmt: skip
 
 
@@ -651,6 +652,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         "ClosedForm",
         "Ranking",
         "ForceTable",
+        "BaseMotion",
+        "BaseResponse",
+        "MountComparison",
         "Powertrain",
         "StaticState",
         "LoadCases",

@@ -82,6 +82,10 @@ MOUNTED = cp.Powertrain(
 SHAKEN = MOUNTED.replace(
     engine=None, forces=cp.ForceTable(900, {1: (0, 50, 0, 3j, 0, 0)}, name="table")
 )
+FLOOR = cp.BaseMotion({8.0: (0, 1e-4, 0), 20.0: (1e-5j, 2e-5, 0)})
+STIFFER = MOUNTED.replace(
+    mounts=[mount.replace(stiffness=1.5 * np.array(mount.stiffness)) for mount in MOUNTED.mounts]
+)
 
 RAFT = cp.Subframe(MOUNTED.body, MOUNTED.mounts)
 PANEL = cp.Receptance(
@@ -248,6 +252,17 @@ OBJECTS = Made(
         "LoadCases": lambda: MOUNTED.load_cases({"rest": {}, "drive": {"torque": 100.0}}),
         "ForceTable": lambda: cp.force_table(ODD, 600.0, orders=[1, 2]),
         "Soil": lambda: cp.Soil(6e7, 0.3),
+        "BaseMotion": lambda: FLOOR,
+        "BaseResponse": lambda: MOUNTED.response(base=FLOOR),
+        "BaseResponse by order": lambda: MOUNTED.response(
+            3000.0, orders=[1, 2], base=cp.BaseMotion({1: (0, 1e-5, 0)}, by="order")
+        ),
+        "MountComparison": lambda: cp.compare_mounts(
+            MOUNTED, STIFFER, [900.0, 3000.0], at=(0, 0.3, 0), orders=[1, 2]
+        ),
+        "MountComparison at one speed": lambda: cp.compare_mounts(
+            MOUNTED, STIFFER, 3000.0, orders=[2, 4]
+        ),
         "Powertrain of forces": lambda: SHAKEN,
         "MountResponse of forces": lambda: SHAKEN.response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),

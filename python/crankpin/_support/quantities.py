@@ -151,6 +151,9 @@ MOUNTED = {
         Kind("transmissibility", "transmissibility", *_LOAD, "", dims=("component",), real=True),
         Kind("transmissibility_db", "transmissibility", *_LOAD, "dB", dims=("component",),
              real=True),
+        Kind("base_motion", "motion of the base at the CG", *_LOAD, "m, rad", dims=("component",)),
+        Kind("base_transmissibility", "motion over that of the base", *_LOAD, "",
+             dims=("component",), real=True),
         Kind("power_in", "mean power put in", ("P",), ("of an order",), "W", real=True),
         Kind("power_lost", "mean power dissipated", ("P",), ("of an order",), "W",
              dims=("mount",), real=True),
@@ -307,7 +310,11 @@ ROLL_AXES = _named(
     *(
         _of(f"{prefix}{name}", f"{words} of the elastic roll axis{how}", unit, axes=_DIRECTION)
         for prefix, how in (("", ""), ("dynamic_", ", dynamic"))
-        for name, words, unit in (("elastic", "direction", ""), ("elastic_foot", "foot", "m"))
+        for name, words, unit in (
+            ("elastic", "direction", ""),
+            ("elastic_foot", "foot", "m"),
+            ("elastic_offset", "offset from the CG", "m"),
+        )
     ),
 )
 """Name of a quantity of axes of roll → its entry."""

@@ -184,7 +184,7 @@ class Comparison(Tabled):
         InputError
             If there is no such quantity.
         """
-        return read_only(_change(*self._peaks(quantity)))
+        return read_only(change_of(*self._peaks(quantity)))
 
     def _shown_orders(self, quantity: str) -> list[int]:
         """Return places of the orders that tables and pictures show: those that are not negligible.
@@ -224,7 +224,7 @@ class Comparison(Tabled):
             if len(places) > 1:
                 total = [getattr(balance.total, name).peak for balance in (self.before, self.after)]
                 texts.append((head, ALL))
-                rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
+                rows.append((*total, 100.0 * change_of(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
         numbers = np.array(rows).reshape(-1, 3)
@@ -259,7 +259,7 @@ class Comparison(Tabled):
         return " → ".join(self.names)
 
 
-def _change(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[np.float64]:
+def change_of(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the change relative to what was before: 0 where they differ by rounding alone."""
     with np.errstate(divide="ignore", invalid="ignore"):
         change = (after - before) / before

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -9,14 +10,17 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin._support.frames import FIRST, PHASES, Frames
+from crankpin.analysis.mounts.compare_mounts import compare_mounts
 from crankpin.analysis.mounts.design_mounts import KINDS, design_mounts
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.arguments import MOST_ROWS
 from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown
 from crankpin.model import engine_files
+from crankpin.model.base_motion import DIRECTIONS, BaseMotion, read_unit
 
 if TYPE_CHECKING:
+    from crankpin.analysis.mounts.response import MountResponse
     from crankpin.cli.arguments import Given
 
 AT_REST = ("--torque", "--gear", "--gravity", "--robustness")
@@ -47,6 +51,12 @@ def _powertrain(call: Given) -> Powertrain:
     "mounts",
     "an engine on its mounts: modes, axes, sag; with --rpm forces and motion by order",
     POWERTRAIN_FILE,
+    option(
+        "other",
+        nargs="?",
+        metavar="OTHER",
+        help="another such file: force on the body, and motion at --at, beside those of FILE",
+    ),
     option(
         "--rpm",
         metavar="RANGE",
@@ -102,6 +112,15 @@ def _powertrain(call: Given) -> Powertrain:
         help="balance factors, such as 0:1:0.05: rms at --at, or of the force on the body, over "
         "the speeds by factor, and the best one",
     ),
+    option(
+        "--base",
+        metavar="FILE",
+        help="motion of what carries the mounts, by frequency or by order with --rpm: columns "
+        "frequency or order, and x, y, z with their units (.csv, .xlsx), or amplitudes such as "
+        "y=0.1mm or x=0.02g,rz=1e-4rad at --base-hz",
+    ),
+    option("--base-hz", metavar="RANGE", help="frequencies at which the base of --base moves, Hz"),
+    keyword(BaseMotion, "about", "--base-about", metavar="X,Y,Z"),
     option("--mount", metavar="NAME", help="mount of the picture (default: the sum of all)"),
     option(
         "--picture",
@@ -128,6 +147,7 @@ def _powertrain(call: Given) -> Powertrain:
             "static",
             "worst",
             "motion",
+            "mounts",
             "robustness",
             "loads",
             "power",
@@ -142,7 +162,9 @@ def _powertrain(call: Given) -> Powertrain:
 def _mounts(call: Given) -> Shown:
     powertrain, cases = _changed(call, _powertrain(call))
     rpm: Any = call.range("--rpm", "rpm")
-    page = call.text("--html")
+    page, base = call.text("--html"), _base(call)
+    if (other := call.text("other")) is not None:
+        return _beside(call, powertrain, other, rpm)
     if page is not None:
         if np.size(rpm) > 1:
             raise rejected("--html", page, "begins at one speed: give --rpm one")
@@ -152,18 +174,22 @@ def _mounts(call: Given) -> Shown:
         )
     elif (typed := call.text("--controls")) is not None:
         raise rejected("--controls", typed, "needs --html")
-    if rpm is None:
+    if rpm is None and (base is None or base.by == "order"):
         return _at_rest(call, powertrain, cases)
     for name in cases:
         raise rejected("--case", name, "acts without --rpm alone, or is that of --rest")
     for flag in (*AT_REST, *(() if page is not None else ("--frequency",))):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "acts without --rpm alone")
-    if np.size(rpm) > MOST_ROWS:
+    if rpm is not None and np.size(rpm) > MOST_ROWS:
         raise inputs.faulty("--rpm", f"has {np.size(rpm)} speeds", f"give {MOST_ROWS} at most")
     if (factors := call.range("--factor")) is not None:
         return _by_factor(call, powertrain, rpm, factors)
-    response = powertrain.response(rpm, **call.chosen())
+    return _forced(call, powertrain.response(rpm, base=base, **call.chosen()))
+
+
+def _forced(call: Given, response: MountResponse) -> Shown:
+    """Return a response, or the motion of a point."""
     options = {"mount": call.text("--mount"), "kind": call.text("--picture")}
     if (typed := call.text("--at")) is None:
         if (on := call.text("--on")) is not None:
@@ -176,9 +202,65 @@ def _mounts(call: Given) -> Shown:
     return Shown(moved.frames, moved, options)
 
 
+SHORT = {name.replace("about ", "r"): k for k, name in enumerate(DIRECTIONS)}
+"""Direction of ``--base`` → its place among those of a motion."""
+
+
+def _base(call: Given) -> BaseMotion | None:
+    """Return the motion of the base, of a file or of amplitudes at frequencies."""
+    text, about = call.text("--base"), call.keywords(BaseMotion)
+    if text is None:
+        for flag in ("--base-hz", "--base-about"):
+            if (typed := call.text(flag)) is not None:
+                raise rejected(flag, typed, "needs --base")
+        return None
+    if "=" not in text:
+        if (typed := call.text("--base-hz")) is not None:
+            raise rejected("--base-hz", typed, "is of amplitudes such as y=0.1mm: FILE has its own")
+        return BaseMotion.from_csv(text, **about)
+    frequencies = call.range("--base-hz")
+    if frequencies is None:
+        raise inputs.faulty("--base-hz", "is left out", "give the frequencies of --base, Hz")
+    phasors, kinds = [0j] * len(SHORT), set[Any]()
+    for part in text.split(","):
+        axis, _, amount = (side.strip() for side in part.partition("="))
+        number = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S*)", amount)
+        if axis not in SHORT or number is None:
+            hint = f"give {', '.join(SHORT)} and amounts, such as y=0.1mm or x=0.02g,rz=1e-4rad"
+            raise rejected("--base", text, hint)
+        kind, factor = read_unit("--base", number[2])
+        kinds.add(kind)
+        phasors[SHORT[axis]] = complex(factor * call.one("--base", number[1]))
+    if len(kinds) > 1:
+        raise rejected("--base", text, "give amounts of one motion: m, m/s or m/s²")
+    every = np.atleast_1d(frequencies).tolist()
+    if len(every) > MOST_ROWS:
+        raise inputs.faulty("--base-hz", f"has {len(every)}", f"give {MOST_ROWS} at most")
+    return BaseMotion(dict.fromkeys(every, phasors), kinds.pop(), **about)
+
+
+OF_ONE = ("--base", "--factor", "--mount", "--picture", "--html", "--on", *AT_REST, "--frequency")
+"""Options of one file alone."""
+
+
+def _beside(call: Given, powertrain: Powertrain, other: str, rpm: Any) -> Shown:  # noqa: ANN401
+    """Return the response of FILE and of another file beside each other."""
+    for flag in OF_ONE:
+        if (typed := call.text(flag)) is not None:
+            raise rejected(flag, str(typed), "cannot be combined with OTHER")
+    if rpm is None:
+        raise inputs.faulty("--rpm", "is left out", "two files are compared at crank speeds")
+    after, cases = _changed(call, Powertrain.load(engine_files.checked(other)))
+    for name in cases:
+        raise rejected("--case", name, "is not that of --rest")
+    point: Any = call.numbers("--at", "m") if call.text("--at") is not None else None
+    both = compare_mounts(powertrain, after, rpm, at=point, **call.chosen())
+    return Shown(both.frames, both)
+
+
 def _by_factor(call: Given, powertrain: Powertrain, rpm: Any, factors: Any) -> Shown:  # noqa: ANN401
     """Return the response at a point, or the force on the body, by balance factor."""
-    for flag in ("--mount", "--picture"):
+    for flag in ("--mount", "--picture", "--base"):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "cannot be combined with --factor")
     receivers: Any = "body_force"
@@ -235,6 +317,8 @@ def _at_rest(call: Given, powertrain: Powertrain, cases: dict[str, dict[str, Any
 
     Or travels and forces of the mounts under load cases.
     """
+    if (typed := call.text("--base")) is not None:
+        raise rejected("--base", typed, "moves by order: give --rpm")
     for flag in ("--at", "--on", "--factor", "--mount", "--picture"):
         if (typed := call.text(flag)) is not None:
             raise rejected(flag, typed, "needs --rpm")
@@ -251,6 +335,7 @@ def _at_rest(call: Given, powertrain: Powertrain, cases: dict[str, dict[str, Any
         axes = powertrain.axes(frequency)
         static = powertrain.static(**call.keywords(Powertrain.static))
         makers |= {"axes": lambda: axes.table, "static": lambda: static.table}
+    makers["mounts"] = lambda: powertrain.table
     if (share := call.optional("--robustness")) is not None:
         robust = powertrain.robustness(share, frequency=frequency)
         makers |= {"robustness": lambda: robust.table}

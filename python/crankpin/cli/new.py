@@ -10,17 +10,19 @@ import textwrap
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from crankpin._support import inputs, units
 from crankpin._support.messages import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
-from crankpin.model import engine_files, presets
+from crankpin.model import engine_files, presets, table_files
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
 from crankpin.model.links import LinkRods
-from crankpin.model.mounts import Mount, RigidBody
+from crankpin.model.mounts import InertiaTrack, Mount, RigidBody
 
 if TYPE_CHECKING:
     import argparse
@@ -229,6 +231,20 @@ def _wrapped(names: Iterable[str]) -> str:
 
 PARTS_HELP = "parts of one cylinder, or A,B,… of each (default: a nominal half litre)"
 ON_MOUNTS = "body and mounts, for crankpin mounts"
+MOUNT_FIELDS = {
+    "tilt": ("tilt_deg", 1, "°"),
+    "axes": ("axes", 9, ""),
+    "dynamic": ("dynamic_stiffness", 3, ""),
+    "damping": ("damping", 3, ""),
+    "rotation": ("rotational_stiffness", 3, ""),
+    "rotation-loss": ("rotational_loss_factor", 3, ""),
+    "rotation-damping": ("rotational_damping", 3, ""),
+    "track": ("track", 3, ""),
+    "table": ("table", 0, ""),
+    "gap": ("gap", 6, "m"),
+    "snubber": ("snubber_stiffness", 6, ""),
+}
+"""Field of ``--mount`` → argument of :class:`Mount`, its count of numbers, and its unit."""
 COMPRESSING = "cycle of a compressor, with ideal valves"
 COMPRESSOR = Cycle.compressor
 COMPRESSOR_OPTIONS = (
@@ -277,15 +293,17 @@ COMPRESSOR_OPTIONS = (
     option(
         "--body",
         group=ON_MOUNTS,
-        metavar="MASS:X,Y,Z:IX,IY,IZ",
-        help="all that moves: mass, centre of gravity, m, moments of inertia about it, kg·m²",
+        metavar="MASS:X,Y,Z:IX,IY,IZ[,IXY,IXZ,IYZ:PRODUCTS]",
+        help="all that moves: mass, centre of gravity, m, moments of inertia about it, kg·m²; with "
+        "products tensor or positive-integrals says which sign they have",
     ),
     option(
         "--mount",
         group=ON_MOUNTS,
-        metavar="NAME:X,Y,Z:K[:LOSS]",
+        metavar="NAME:X,Y,Z:K[:LOSS][:FIELD=VALUE…]",
         action="append",
-        help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; once for each",
+        help="place, m, stiffness, N/m, or K,K,K along its axes, and loss factor; once for each. "
+        f"Fields, one number or one for each axis: {', '.join(MOUNT_FIELDS)}",
     ),
     option("--name", help="name of the engine (default: that of its kind)"),
     "--add-load --units",
@@ -352,21 +370,70 @@ def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
     if body is None or not mounts:
         flag, other = ("--mount", "--body") if body is not None else ("--body", "--mount")
         raise inputs.faulty(flag, "is left out", f"a body on mounts needs it, beside {other}")
-    mass, cg, inertia = _fields(call, "--body", body, "MASS:X,Y,Z:IX,IY,IZ", 3)
-    rigid = RigidBody(
-        call.one("--body", mass, "kg"),
-        call.listed("--body", cg, "m"),
-        call.listed("--body", inertia),
-    )
-    carried = []
-    for mount in mounts:
-        fields = _fields(call, "--mount", mount, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
-        stiffness = call.listed("--mount", fields[2])
-        along = stiffness if len(stiffness) > 1 else stiffness[0]
-        loss = call.one("--mount", fields[3]) if len(fields) > 3 else 0.0
-        place = call.listed("--mount", fields[1], "m")
-        carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
-    return Powertrain(engine, rigid, carried)
+    return Powertrain(engine, _body(call, body), [_mount(call, text) for text in mounts])
+
+
+def _body(call: Given, text: str) -> RigidBody:
+    """Return the body of ``--body``."""
+    form = "MASS:X,Y,Z:IX,IY,IZ or MASS:X,Y,Z:IX,IY,IZ,IXY,IXZ,IYZ:tensor"
+    mass, cg, inertia, *products = _fields(call, "--body", text, form, 3, 4)
+    entries = call.listed("--body", inertia)
+    if len(entries) not in (3, 6) or (len(entries) == 3 and products):
+        raise rejected("--body", text, f"give {form}")
+    moments: Any = entries
+    if len(entries) == 6:
+        xx, yy, zz, xy, xz, yz = entries
+        moments = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    signs: Any = products[0].strip() if products else None
+    return RigidBody(call.one("--body", mass, "kg"), call.listed("--body", cg, "m"), moments, signs)
+
+
+def _mount(call: Given, text: str) -> Mount:
+    """Return a mount of ``--mount``: name, place, stiffness, loss factor, and fields by name."""
+    flag, form = "--mount", "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS, and behind these FIELD=VALUE"
+    parts = text.split(":")
+    first = next((k for k, part in enumerate(parts) if "=" in part and k > 2), len(parts))
+    name, place, stiffness, *loss = _fields(call, flag, ":".join(parts[:first]), form, 3, 4)
+    figures: dict[str, Any] = {}
+    if loss:
+        figures["loss_factor"] = _one_or_three(call, flag, loss[0])
+    for part in parts[first:]:
+        key, _, value = part.partition("=")
+        if key.strip() not in MOUNT_FIELDS:
+            raise rejected(flag, text, f"give fields of {', '.join(MOUNT_FIELDS)}")
+        argument, count, unit = MOUNT_FIELDS[key.strip()]
+        if argument == "table":
+            figures[argument] = _stiffness_table(value)
+            continue
+        numbers = call.listed(flag, value, unit)
+        if len(numbers) not in ({count} if argument in ("axes", "track") else {1, 3, count}):
+            raise rejected(flag, text, f"give {count} numbers of {key}")
+        figures[argument] = numbers if len(numbers) > 1 else numbers[0]
+        if len(numbers) == 6:  # against and along each axis
+            figures[argument] = [tuple(numbers[k : k + 2]) for k in (0, 2, 4)]
+        if argument == "axes":
+            figures[argument] = [numbers[k : k + 3] for k in (0, 3, 6)]
+        elif argument == "track":
+            figures[argument] = InertiaTrack(*numbers)
+    at = call.listed(flag, place, "m")
+    return Mount(name.strip(), at, _one_or_three(call, flag, stiffness), **figures)
+
+
+def _one_or_three(call: Given, flag: str, text: str) -> Any:  # noqa: ANN401 - as Mount takes it
+    numbers = call.listed(flag, text)
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def _stiffness_table(name: str) -> Any:  # noqa: ANN401 - as Mount takes it
+    """Return frequencies and complex stiffness along the axes, of a file's columns."""
+    file = inputs.file_path(name, table_files.TABLE_ENDINGS, table_files.FILE_HINT, "--mount")
+    numbers = table_files.read(file, None).numbers
+    if numbers.shape[1] not in (3, 7):
+        hint = "give frequency, Hz, and real and imaginary part, N/m, of all axes or of each"
+        raise inputs.faulty("--mount", f"has {numbers.shape[1]} columns in {name}", hint)
+    parts = numbers[:, 1:]
+    stiffness = parts[:, ::2] + 1j * parts[:, 1::2]
+    return numbers[:, 0], np.broadcast_to(stiffness, (len(numbers), 3))
 
 
 def _fields(call: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:

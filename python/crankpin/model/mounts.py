@@ -22,10 +22,6 @@ Pair: TypeAlias = tuple[float, float]
 Sides: TypeAlias = tuple[Pair, Pair, Pair]
 
 THREE = "give three numbers"
-SIDES = (1e-3, 1e3)
-"""Least and largest side of a block, m."""
-DENSITIES = (1.0, 1e5)
-"""Least and largest density of a block, kg/m³."""
 
 
 class RigidBody(Input):
@@ -139,18 +135,9 @@ class RigidBody(Input):
         (216000.0, (0.0, -2.05, 0.0))
         """
         x, y, z = _vector("top", top)
-        sides = (
-            inputs.positive("width", width),
-            inputs.positive("height", height),
-            inputs.positive("length", length),
-        )
-        for name, side in zip(("width", "height", "length"), sides, strict=True):
-            if not SIDES[0] <= side <= SIDES[1]:
-                raise inputs.rejected(name, side, f"give metres, {SIDES[0]:g} to {SIDES[1]:g}")
+        given = {"width": width, "height": height, "length": length}
+        sides = [inputs.number(name, side) for name, side in given.items()]
         heavy = inputs.number("density", density)
-        if not DENSITIES[0] <= heavy <= DENSITIES[1]:
-            hint = f"give kg/m³, {DENSITIES[0]:g} to {DENSITIES[1]:g}: 2400 of concrete"
-            raise inputs.rejected("density", density, hint)
         centre = (x, y - 0.5 * sides[1], z)
         return cls._of(_core.block(sides, centre, heavy))
 

@@ -37,9 +37,12 @@ class Soil(Input):
     Notes
     -----
     Stiffness and dashpots are those of Richart, Hall and Woods, *Vibrations of Soils and
-    Foundations* (1970), chapter 10: of a circular base, and of a rectangular one by the circles of
-    equal area and of equal second moments of area, whose stiffness is within 9 % of Pais and
-    Kausel's (1988) for sides of 2 to 1, within 14 % for 3 to 1. They are for low frequencies,
+    Foundations* (1970), chapter 10, of a circular base: springs as in table 3 of Whitman and
+    Richart, *J. Soil Mech. Found. Div.* ASCE 93 SM6 (1967) 169, with mass and damping ratios in
+    table 12-1 of UFC 3-220-01N (2005). A rectangular base has the circles of equal area and of
+    equal second moments of area, whose stiffness is within 9 % of Pais and Kausel's (1988, table
+    2-2a of NIST GCR 12-917-21) for sides of 2 to 1, within 14 % for 3 to 1; a square is 4 % stiffer
+    up and down than its circle. They are for low frequencies,
     ω·r·√(ρ/G) up to about 1.5. Embedment counts by Whitman's factors, as in Arya, O'Neill and
     Pincus, *Design of Structures and Foundations for Vibrating Machines* (1979), chapter 4, which
     has none for torsion.

@@ -29,7 +29,7 @@ from crankpin.plot.style import (
     series,
     tint,
 )
-from crankpin.plot.words import joined, number, plain_text, rounded
+from crankpin.plot.words import joined, plain_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -222,13 +222,17 @@ def _picture(
     result = drawn.result
     several = bool(result.dims)
     chosen = inputs.one_of("kind", kind or ("cuts" if several else "spectrum"), kinds)
+    if chosen in ("map", "waterfall") and "rpm" not in result.dims and several:
+        raise inputs.rejected(
+            "kind", chosen, "is of orders over speed: the base moves by frequency"
+        )
     if several == (chosen == "spectrum"):
-        hint = "give one speed, as r.sel(rpm=…)" if several else "needs several speeds"
+        hint = f"give one, as r.sel({result.dims[0]}=…)" if several else "needs several speeds"
         raise inputs.rejected("kind", chosen, hint)
     ax = axes_or_new(ax)
     chosen_orders = drawn.largest if orders is None else inputs.explicit_half_orders(orders)
     notes = kinds[chosen](ax, drawn._replace(orders=tuple(chosen_orders)), label, style)
-    speed = "" if several else f"{number(float(result.rpm))} rpm"
+    speed = "" if several else result._at().removeprefix("at ")
     set_title(
         ax, labels.name_of(result.powertrain), joined(words, speed, result.loads_counted), notes
     )
@@ -241,9 +245,16 @@ def _cuts(ax: Axes, drawn: Drawn, label: str | None, style: dict[str, Any]) -> s
     peaks = {order: drawn.read(order) for order in drawn.orders}
     by_size = sorted(peaks, key=lambda order: -float(peaks[order].max()))
     largest = sorted(by_size if result._request.orders is not None else by_size[:MOST_CURVES])
-    rpm = np.asarray(result.rpm)
+    ((name, values),) = result.coords.items()
+    rpm = np.asarray(values)
     along = np.argsort(rpm, kind="stable")
     total = drawn.read(ALL)
+    if name != "rpm":  # of a base that moves by frequency
+        draw_curves(ax, rpm[along], {"": total[along]}, style, label)
+        x_axis(ax, "frequency, Hz", rpm)
+        y_axis(ax, drawn.peak, largest=highest(ax))
+        add_legend(ax)
+        return ""
     bold = {"color": foreground(ax), "linewidth": 1.8} | style | {"linestyle": "-"}
     draw_curves(ax, rpm[along], {"all orders": total[along]}, bold, label)
     columns = {f"order {order}": peaks[order][along] for order in largest}

@@ -10,7 +10,7 @@ use crankpin_core::balancing::phasors::{self, PhasorRequest};
 use crankpin_core::engine::file;
 use crankpin_core::mount_designs::{DesignRequest, MountFigure, Variation, design_responses};
 use crankpin_core::mount_objectives::{self, MountObjective, MountVariable};
-use crankpin_core::mounted::{ActuatorForces, Derivative};
+use crankpin_core::mounted::{ActuatorForces, BaseMotion, Derivative};
 use crankpin_core::mounts::{
     self, Base, ForceTable, InertiaTrack, Mount, MountFigures, Products, Receiver, Receptance,
     RigidBody, Soil, Table,
@@ -70,9 +70,9 @@ type Modes<'py> = (
     Vec<usize>,
     Vec<String>,
 );
-/// Direction and foot of an elastic axis; its angles to the crank and the torque roll axis, degrees, the distance from
-/// that, pitch, and compliance.
-type ElasticAxis = ([[f64; 3]; 2], [f64; 5]);
+/// Direction and foot of an elastic axis, and from the CG to that; its angles to the crank and the torque roll axis,
+/// degrees, the distance from that, pitch, and compliance; the elastic centre, if there is one.
+type ElasticAxis = ([[f64; 3]; 3], [f64; 5], Option<[f64; 3]>);
 /// Direction of the torque roll axis and its angle to the crank, distances of the mounts, and elastic axes with static
 /// and dynamic stiffness.
 type RollAxes<'py> = ([f64; 3], f64, Bound<'py, PyArray1<f64>>, [ElasticAxis; 2]);
@@ -87,6 +87,9 @@ type Robustness<'py> = (
 );
 /// Place and direction of actuators, their forces, and whether the engine's loads act.
 type PyDrive<'py> = (Vec<[[f64; 3]; 2]>, PyReadonlyArray2<'py, Complex64>, bool);
+/// Point of a base that moves, what its phasors are of, those at orders, one for all speeds or one for each, and whether
+/// the engine's loads act.
+type PyBase<'py> = ([f64; 3], String, Vec<(OrderNumber, PyReadonlyArray2<'py, Complex64>)>, bool);
 /// Orders, omitted ones, bounds; frequencies, largest peaks, rms.
 type DesignResponses<'py> = (
     (Vec<OrderNumber>, Vec<OrderNumber>, [f64; 3]),
@@ -568,7 +571,7 @@ impl Powertrain {
         let elastic = [found.elastic, found.dynamic].map(|one| {
             let angles = [one.angle_deg, one.to_torque_roll_deg];
             let figures = [angles[0], angles[1], one.distance, one.pitch, one.compliance];
-            ([one.direction, one.foot], figures)
+            ([one.direction, one.foot, one.from_cg], figures, one.centre)
         });
         let distances = frozen(py, Array1::from(found.mount_distances))?;
         Ok((found.torque_roll, found.torque_roll_deg, distances, elastic))
@@ -645,8 +648,9 @@ impl Powertrain {
     }
 
     /// Response to the engine, and with a drive to actuators: place and direction of each, peak phasors of their
-    /// forces, (`n_points`, `n_actuators`), and whether the engine's loads act.
-    #[pyo3(signature = (engine, rpm, orders, rtol, drive=None))]
+    /// forces, (`n_points`, `n_actuators`), and whether the engine's loads act; or on a base that moves.
+    #[pyo3(signature = (engine, rpm, orders, rtol, drive=None, base=None))]
+    #[expect(clippy::too_many_arguments)]
     fn response(
         &self,
         py: Python<'_>,
@@ -655,10 +659,27 @@ impl Powertrain {
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         drive: Option<PyDrive<'_>>,
+        base: Option<PyBase<'_>>,
     ) -> PyResult<Response> {
         let (orders, rpm) = (balance::orders(orders, rtol)?, rpm.as_slice()?);
         let (engine, powertrain) = (core_of(engine), Arc::clone(&self.0));
-        let found = if let Some((actuators, forces, engine_runs)) = &drive {
+        let found = if let Some((about, derivative, by_order, engine_runs)) = &base {
+            let derivative = choice("derivative", derivative, &DERIVATIVES)?;
+            let rows = |(order, rows): &(OrderNumber, PyReadonlyArray2<'_, Complex64>)| {
+                let order = convert::orders(&[*order])?[0];
+                Ok((order, rows.as_slice()?.as_chunks::<6>().0.to_vec())) // bounded: as it was given
+            };
+            let phasors = by_order.iter().map(rows).collect::<PyResult<Vec<_>>>()?;
+            let base = BaseMotion {
+                about: *about,
+                derivative,
+                phasors: &phasors,
+                engine_runs: *engine_runs,
+            };
+            interrupt::run(py, |cancel| {
+                core::mounted::Response::on_base(engine, powertrain, rpm, &orders, &base, cancel)
+            })?
+        } else if let Some((actuators, forces, engine_runs)) = &drive {
             let (forces, engine_runs) = (forces.as_slice()?, *engine_runs);
             let drive = ActuatorForces { actuators, forces, engine_runs };
             interrupt::run(py, |cancel| {
@@ -672,6 +693,13 @@ impl Powertrain {
         Ok(Response { core: found, speeds: rpm.len(), mounts: self.0.mounts().len() })
     }
 }
+
+/// Names of what the motion of a point is.
+const DERIVATIVES: [(&str, Derivative); 3] = [
+    ("displacement", Derivative::Displacement),
+    ("velocity", Derivative::Velocity),
+    ("acceleration", Derivative::Acceleration),
+];
 
 /// An engine on its mounts at some speeds.
 #[pyclass(frozen, module = "crankpin._core")]
@@ -783,16 +811,28 @@ impl Response {
         derivative: &str,
         of_subframe: bool,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
-        let derivatives = [
-            ("displacement", Derivative::Displacement),
-            ("velocity", Derivative::Velocity),
-            ("acceleration", Derivative::Acceleration),
-        ];
-        let derivative = choice("derivative", derivative, &derivatives)?;
+        let derivative = choice("derivative", derivative, &DERIVATIVES)?;
         let moved = interrupt::run(py, |cancel| match &point {
             MotionPoint::Place(place) => self.core.at(*place, derivative, of_subframe, cancel),
             MotionPoint::Receiver(name) => self.core.at_receiver(name, derivative, cancel),
         })?;
+        self.shaped(py, moved.into_flattened(), &[3])
+    }
+
+    /// Motion of a base at the CG, and rotation: (`n_rpm`, `n_orders`, 6).
+    fn base_motions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        self.shaped(py, side_by_side(self.core.base_motions().or_raise()?), &[6])
+    }
+
+    /// Motion of a point of a base: (`n_rpm`, `n_orders`, 3).
+    fn base_at<'py>(
+        &self,
+        py: Python<'py>,
+        point: [f64; 3],
+        derivative: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let derivative = choice("derivative", derivative, &DERIVATIVES)?;
+        let moved = self.core.base_at(point, derivative).or_raise()?;
         self.shaped(py, moved.into_flattened(), &[3])
     }
 

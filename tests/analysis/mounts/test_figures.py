@@ -68,8 +68,50 @@ def test_elastic_centre_of_inclined_mounts() -> None:
     # Its distance from the CG, put there to eight digits, is left by rounding of that.
     assert axes.elastic_foot[1] == near(0.22274808)
     assert axes.roll_stiffness == near(27142.12)
+    # The same to eight digits of the place of the CG.
+    assert axes.cg_distance == pytest.approx(0.0, abs=1e-8)
+    low = p.replace(body=p.body.replace(cg=(0.05, -0.1, 0.02))).axes()
+    np.testing.assert_allclose(low.elastic_offset, [-0.05, 0.32274808, 0.0], atol=1e-8)
+    assert low.cg_distance == near(math.hypot(0.05, 0.32274808))
+    foot = np.array(low.elastic_foot) - low.elastic_offset
+    np.testing.assert_allclose(foot, (0.05, -0.1, 0.02), atol=1e-15)
+    assert low.table["off the CG"].values[1] == 1e3 * low.cg_distance
+    # Forces along z act at the height of the mounts: a line, but no point for all directions.
+    assert axes.elastic_centre is None
     lateral = p.modes().frequency[p.modes().dominant.index("lateral")]
     assert 100.0 * (2.0 * math.pi * lateral) ** 2 == near(424432.58)
+
+
+def test_a_force_through_the_elastic_centre_causes_no_rotation() -> None:
+    corners = [(x, -0.1, z) for x in (0.3, -0.3) for z in (0.0, 0.6)]
+    mounts = [
+        cp.Mount(f"{k}", at, (1e5, 2e5, 7e4), dynamic_stiffness=(1e5, 2e5 + 3e5 * (k == 0), 7e4))
+        for k, at in enumerate(corners)
+    ]
+    p = cp.Powertrain(I4, cp.RigidBody(100.0, (0.1, 0.2, 0.3), (7, 8, 4.5)), mounts)
+    axes = p.axes()
+    centre = (0.0, -0.1, 0.3)
+    assert axes.elastic_centre == near(centre, 1e-12)
+    off = 1e3 * math.dist(centre, (0.1, 0.2, 0.3))
+    assert f"Elastic centre with static stiffness: (0, -0.1, 0.3) m, {off:.5g} mm" in str(axes)
+    for unit in np.eye(3):
+        turned = p.static(gravity=(0, 0, 0), thrust=1e3 * unit, thrust_at=centre)
+        # Rotations of the same force at the CG: some tenths of a degree.
+        assert np.abs(turned.thrust_deg).max() < 1e-12
+        apart = np.add(centre, (0.0, 1e-3, 0.0))
+        other = p.static(gravity=(0, 0, 0), thrust=1e3 * unit, thrust_at=apart)
+        assert np.abs(other.thrust_deg).max() > 1e-6 or unit[1]
+    # One mount stiffer up and down in motion: forces up and sideways have different centres.
+    assert axes.dynamic_elastic_centre is None
+    assert axes.dynamic_cg_distance > 0.0
+    assert "No elastic centre with dynamic stiffness: of any point, some force" in str(axes)
+    raft = cp.Subframe(cp.RigidBody(50.0, (0, -0.3, 0.3), (3, 4, 3)), mounts)
+    below = p.with_support(raft).axes()
+    assert below.elastic_centre is not None
+    on_both = p.with_support(raft).static(
+        gravity=(0, 0, 0), thrust=(800, 900, 1e3), thrust_at=below.elastic_centre
+    )
+    assert np.abs(on_both.thrust_deg).max() < 1e-12
 
 
 def test_roll_stiffness_at_rest_and_in_motion_are_two_figures() -> None:

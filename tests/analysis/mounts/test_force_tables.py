@@ -116,8 +116,8 @@ def test_what_needs_an_engine_says_so() -> None:
         alone.save_html("page.html")
     with pytest.raises(cp.InputError, match=r"^forces = 'Two throws': a page has the loads of an"):
         p.replace(forces=table).save_html("page.html")
-    with pytest.raises(cp.InputError, match=r"^engine = None"):
-        cp.Powertrain(None, p.body, p.mounts)
+    with pytest.raises(cp.InputError, match=r"^engine = None: nothing shakes the body"):
+        cp.Powertrain(None, p.body, p.mounts).response(900)
     with pytest.raises(cp.InputError, match=r"^forces\[1\] = 3: give a crankpin.ForceTable"):
         cp.Powertrain(None, p.body, p.mounts, forces=[table, 3])  # type: ignore[list-item]
     below = cp.Subframe(p.body, p.mounts)

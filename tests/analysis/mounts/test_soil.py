@@ -149,6 +149,14 @@ def test_blocks_and_machines_on_them_are_integrals() -> None:
         cp.RigidBody.block(1, -1, 1)
     with pytest.raises(cp.InputError, match=r"^density"):
         cp.RigidBody.block(1, 1, 1, density=0)
+    for sides, said in (((1e4, 1, 1), "width = 10000.0: give metres, 0.001 to 1000"),
+                        ((1, 1, 1e-4), "length = 0.0001: give metres")):  # fmt: skip
+        with pytest.raises(cp.InputError, match=f"^{said}"):
+            cp.RigidBody.block(*sides)
+    with pytest.raises(cp.InputError, match=r"^density = 0\.5: give kg/m³, 1 to 100000: 2400"):
+        cp.RigidBody.block(1, 1, 1, density=0.5)
+    with pytest.raises(cp.InputError, match=r"^height = 'two'"):
+        cp.RigidBody.block(1, "two", 1)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match=r"^bodies"):
         cp.RigidBody.combined()
 
@@ -303,3 +311,119 @@ def test_coupled_rocking_and_sliding_has_the_roots_of_the_quadratic() -> None:
     found = p.modes().frequency
     for root in np.sqrt(roots) / (2 * np.pi):
         assert np.abs(found - root).min() < 1e-9 * root
+
+
+# --- cases that are printed in public, computed again ---------------------------------------------
+
+
+def test_a_block_under_a_rotating_machine() -> None:
+    """A template of engineers in Peru after Richart, Hall and Woods, and ACI 351.3R-18.
+
+    Printed for B 2 m, L 4 m, h 1.5 m, concrete 2.4 tf/m³, machine 6 tf, V_s 200 m/s, soil
+    1.8 tf/m³, ν 0.33: r₀ 1.5958 m, k_z 69 947 tf/m, f_z 22.345 Hz. An edition of it took rocking
+    about the stiff axis of the base, (B·L³/3π)^¼, where the unbalance rocks it about the soft one.
+    """
+    g = 9.80665
+    density, stiff = 1.8e3, 1.8e3 * 200.0**2
+    block = cp.RigidBody.block(width=2, height=1.5, length=4, density=2400)
+    machine = cp.RigidBody(6e3, (0, 0, 0), (1e3, 1e3, 1e3))
+    body = cp.RigidBody.combined(block, machine)
+    mount = cp.Soil(stiff, 0.33, density).mount(body, width=2, length=4, y=-1.5)
+    # Figures of five digits.
+    assert mount.stiffness[1] / (1e3 * g) == pytest.approx(69947, rel=1e-5)
+    assert np.sqrt(mount.stiffness[1] / body.mass) / (2 * np.pi) == pytest.approx(22.345, rel=3e-5)
+    rocking, *_, along = mount.rotational_stiffness
+    about = 8 * stiff * ((4 * 2**3) / (3 * np.pi)) ** 0.75 / (3 * 0.67)
+    assert along == pytest.approx(about, rel=1e-12)
+    assert rocking == pytest.approx(about * 2**1.5, rel=1e-12)
+
+
+def test_a_circular_footing_by_shear_wave_velocity() -> None:
+    """A validation case of a solver of structures: r 2 m, V_s 200 m/s, 1800 kg/m³, ν 0.33.
+
+    It cites Gazetas (1991) for 32(1 − ν)Gr/(7 − 8ν), which is Bycroft's, as in Richart, Hall and
+    Woods; Gazetas has 8Gr/(2 − ν), 2 % less here.
+    """
+    body = cp.RigidBody(50e3, (0, 0, 0), (1e5, 1e5, 1e5))
+    mount = cp.Soil(72e6, 0.33, 1800).mount(body, radius=2.0, y=0.0)
+    vertical, sliding = 4 * 72e6 * 2.0 / 0.67, 32 * 0.67 * 72e6 * 2.0 / 4.36
+    rocking = 8 * 72e6 * 8.0 / (3 * 0.67)
+    assert mount.stiffness == pytest.approx((sliding, vertical, sliding), rel=1e-12)
+    assert mount.rotational_stiffness[0] == pytest.approx(rocking, rel=1e-12)
+    assert 8 * 72e6 * 2.0 / 1.67 / sliding == pytest.approx(0.975, abs=1e-3)
+    p = cp.Powertrain(None, body, [mount])
+    natural = np.sqrt(vertical / 50e3) / (2 * np.pi)
+    assert np.abs(np.asarray(p.modes().frequency) - natural).min() < 1e-9 * natural
+
+
+@pytest.mark.filterwarnings("ignore:stiffness of mount 'soil' = 1e.16")
+def test_a_cylinder_that_rocks_about_its_base() -> None:
+    """A validation case after Gazetas: G 30 MPa, ν 0.3, r 3 m, h 1.5 m, 2400 kg/m³.
+
+    I = m(r²/4 + h²/3) about the base, ω² = 8Gr³/(3(1 − ν))/I: rocking alone, without sliding.
+    """
+    r, h = 3.0, 1.5
+    mass = 2400 * np.pi * r * r * h
+    own = mass * (r * r / 4 + h * h / 12)
+    body = cp.RigidBody(mass, (0, -h / 2, 0), (own, mass * r * r / 2, own))
+    mount = cp.Soil(3e7, 0.3, 1800).mount(body, radius=r, y=-h)
+    about_base = mass * (r * r / 4 + h * h / 3)
+    omega = np.sqrt(mount.rotational_stiffness[0] / about_base)
+    assert omega**2 == pytest.approx(8 * 3e7 * 27 / 2.1 / about_base, rel=1e-12)
+    # Held at its base it rocks so: sliding made stiff.
+    held = mount.replace(stiffness=(1e16, 1e16, 1e16), damping=0.0)
+    p = cp.Powertrain(None, body, [held])
+    natural = omega / (2 * np.pi)
+    # Squares of frequencies a hundred thousand apart.
+    assert np.abs(np.asarray(p.modes().frequency) - natural).min() < 1e-5 * natural
+
+
+def test_a_square_is_five_per_cent_stiffer_than_its_circles() -> None:
+    """NIST GCR 12-917-21, table 2-2a (Pais and Kausel; Gazetas), of a square 2B at ν = 1/3.
+
+    In G·B and G·B³: Pais and Kausel 7.05, 8.31 and 6.00 up, in torsion and rocking; circles of
+    equal area and second moments 6.7703, 7.9326 and 5.9490.
+    """
+    body = cp.RigidBody.block(2, 1, 2)
+    mount = cp.Soil(1e6, 1 / 3, 1800).mount(body, width=2, length=2, y=-1)
+    # Figures of five digits.
+    assert mount.stiffness[1] / 1e6 == pytest.approx(6.7703, rel=1e-5)
+    # Of a radius rounded to five digits, to the third power.
+    assert mount.rotational_stiffness[1] / 1e6 == pytest.approx(7.9326, rel=1e-4)
+    assert mount.rotational_stiffness[0] / 1e6 == pytest.approx(5.9490, rel=1e-5)
+    found = [mount.stiffness[1], *mount.rotational_stiffness[1::-1]]
+    ratio = np.array([7.05, 8.31, 6.0]) * 1e6 / found
+    assert ratio == pytest.approx([1.041, 1.048, 1.009], abs=1e-3)
+
+
+def test_a_long_basemat_of_gazetas() -> None:
+    """Gazetas, J. Geotech. Eng. 117 (1991) 1363: the example of his figure 4a, static.
+
+    G 120 MPa, ν 0.4, 1850 kg/m³, L/B 3.2, area/(4L²) 0.26, at 18 Hz a₀ = ωB/V_s = 1.23:
+    K_z = 4.13·10⁶ kN/m. Of a circle of equal area it is 2 % less.
+    """
+    half = 1.23 * np.sqrt(120e6 / 1850) / (2 * np.pi * 18)
+    area = 0.26 * 4 * (3.2 * half) ** 2
+    body = cp.RigidBody.block(2, 1, 2)
+    mount = cp.Soil(120e6, 0.4, 1850).mount(body, radius=float(np.sqrt(area / np.pi)), y=-1)
+    # His figures have three digits; a circle is softer than a long base.
+    assert mount.stiffness[1] / 1e9 == pytest.approx(4.13, rel=0.03)
+    assert mount.stiffness[1] / 1e9 < 4.13
+
+
+def test_an_embedded_disc_of_a_tower() -> None:
+    """The soil of NREL's TowerSE, after chapter 4 of Arya, O'Neill and Pincus.
+
+    G 140 MPa, ν 0.4, r₀ 1 m, depth 1 m. One version of it has the derivative of the vertical
+    factor by depth with the wrong sign: embedment would soften.
+    """
+    body = cp.RigidBody.block(2, 1, 2)
+    mount = cp.Soil(140e6, 0.4, 1800).mount(body, radius=1.0, y=-1, embedment=1.0)
+    vertical = 4 * 140e6 * (1 + 0.6 * 0.6) / 0.6
+    sliding = 32 * 0.6 * 140e6 * (1 + 0.55 * 1.6) / (7 - 3.2)
+    rocking = 8 * 140e6 * (1 + 1.2 * 0.6 + 0.2 * 1.6) / (3 * 0.6)
+    torsion = 16 * 140e6 / 3
+    assert mount.stiffness == pytest.approx((sliding, vertical, sliding), rel=1e-12)
+    assert mount.rotational_stiffness == pytest.approx((rocking, torsion, rocking), rel=1e-12)
+    deeper = cp.Soil(140e6, 0.4, 1800).mount(body, radius=1.0, y=-1, embedment=1.1)
+    assert deeper.stiffness[1] > mount.stiffness[1]

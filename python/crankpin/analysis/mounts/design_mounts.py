@@ -392,7 +392,7 @@ class Question:
         return self.powertrain.replace(mounts=mounts)
 
     def _force(self, powertrain: Powertrain, name: str, order: Order) -> float:
-        response = powertrain.response(self.rpm, orders=[order])  # type: ignore[arg-type] # given
+        response = powertrain.response(self.rpm, orders=[order])
         return float(np.max(response.read(name, "peak")))
 
     def _purities(self, powertrain: Powertrain) -> Real:

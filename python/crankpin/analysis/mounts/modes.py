@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin._support import units
 from crankpin._support.quantities import MODES, ROLL_AXES
 from crankpin._support.record import computed
 from crankpin._support.tables import Column, Table
@@ -221,6 +222,10 @@ class RollAxes(Labelled):
     """Shift along the elastic roll axis at rest over the rotation about it, m/rad."""
     roll_stiffness: float = computed()
     """Steady torque about z over the rotation about z that it makes, N·m/rad."""
+    cg_distance: float = computed()
+    """Distance of the elastic roll axis at rest from the centre of gravity, m."""
+    elastic_centre: tuple[float, float, float] | None = computed()
+    """Elastic centre at rest, m: a force through it causes no rotation; None where none is such."""
     dynamic_elastic_deg: float = computed()
     """As ``elastic_deg``, with the dynamic stiffness, degrees."""
     dynamic_angle_deg: float = computed()
@@ -231,20 +236,27 @@ class RollAxes(Labelled):
     """As ``pitch``, with the dynamic stiffness, m/rad."""
     dynamic_roll_stiffness: float = computed()
     """Slowly oscillating torque about z over the rotation about z that it makes, N·m/rad."""
+    dynamic_cg_distance: float = computed()
+    """As ``cg_distance``, with the dynamic stiffness, m."""
+    dynamic_elastic_centre: tuple[float, float, float] | None = computed()
+    """As ``elastic_centre``, with the dynamic stiffness, m."""
 
     def __post_init__(self) -> None:
         free, free_deg, distances, elastic = self.powertrain._core.axes(self.at_frequency)
         values = {"torque_roll_deg": free_deg}
         arrays = {"torque_roll": np.array(free), "mount_distances": distances}
-        for before, ((direction, foot), figures) in zip(("", "dynamic_"), elastic, strict=True):
+        for before, (places, figures, centre) in zip(("", "dynamic_"), elastic, strict=True):
+            direction, foot, from_cg = map(np.array, places)
             *angles, pitch, compliance = figures
             named: dict[str, Any] = dict(
                 zip(("elastic_deg", "angle_deg", "distance"), angles, strict=True)
             )
             named |= {"pitch": pitch, "roll_stiffness": 1.0 / compliance}
+            named |= {"cg_distance": float(np.linalg.norm(from_cg))}
+            named |= {"elastic_centre": None if centre is None else tuple(centre)}
             values |= {f"{before}{name}": value for name, value in named.items()}
-            arrays |= {f"{before}elastic": np.array(direction)}
-            arrays |= {f"{before}elastic_foot": np.array(foot)}
+            arrays |= {f"{before}elastic": direction, f"{before}elastic_foot": foot}
+            arrays |= {f"{before}elastic_offset": from_cg}
         self.__dict__.update(values, _arrays=arrays)
         super().__post_init__()
 
@@ -289,25 +301,53 @@ class RollAxes(Labelled):
         return self._quantity("dynamic_elastic_foot")
 
     @property
+    def elastic_offset(self) -> Quantity[np.float64]:
+        """From the centre of gravity to the elastic roll axis at rest, across it, m: (n_axes,)."""
+        return self._quantity("elastic_offset")
+
+    @property
+    def dynamic_elastic_offset(self) -> Quantity[np.float64]:
+        """As ``elastic_offset``, with the dynamic stiffness, m: (n_axes,)."""
+        return self._quantity("dynamic_elastic_offset")
+
+    @property
     def table(self) -> Table:
-        """Directions, angles to the crank, and places of the axes."""
+        """Directions, angles to the crank, and places of the axes; below it the elastic centres."""
         cg = np.array(self.powertrain.body.cg)
-        rows = [[*self.torque_roll, self.torque_roll_deg, *cg, 0.0, None, None, None]]
-        for name in ("", "dynamic_"):
-            of_axis = ("elastic", "elastic_deg", "elastic_foot", "pitch", "roll_stiffness")
-            direction, angle, foot, pitch, stiffness = (
+        rows = [[*self.torque_roll, self.torque_roll_deg, *cg, *[0.0] * 5, None, None, None]]
+        at = "" if self.at_frequency is None else f", {self.at_frequency:g} Hz"
+        kinds, notes = ["torque roll axis (free)"], list[Any]()
+        for name, stiffness in (("", "static"), ("dynamic_", "dynamic")):
+            of_axis = ("elastic", "elastic_deg", "elastic_foot", "elastic_offset", "cg_distance")
+            direction, angle, foot, offset, distance = (
                 getattr(self, f"{name}{figure}") for figure in of_axis
             )
+            figures = [getattr(self, f"{name}{figure}") for figure in ("pitch", "roll_stiffness")]
             apart = [getattr(self, f"{name}angle_deg"), 1e3 * getattr(self, f"{name}distance")]
-            rows.append([*direction, angle, *foot, pitch, stiffness, *apart])
+            from_cg = [*(1e3 * offset), 1e3 * distance]
+            rows.append([*direction, angle, *foot, *from_cg, *figures, *apart])
+            which = f"{stiffness} stiffness{at if name else ''}"
+            kinds.append(f"elastic roll axis ({which})")
+            if (centre := getattr(self, f"{name}elastic_centre")) is None:
+                notes.append(
+                    f"No elastic centre with {which}: of any point, some force there turns it."
+                )
+                continue
+            place = units.Figure(centre, "m", ".6g", "({}, {}, {})")
+            off = units.figure(1e3 * float(np.linalg.norm(np.subtract(centre, cg))), "mm", 5)
+            notes.append(
+                units.Text(f"Elastic centre with {which}: ", place, ", ", off, " off the CG.")
+            )
         heads: list[str | tuple[str, str]] = [f"direction {axis}" for axis in "xyz"]
         heads.append(("to the crank", "°"))
-        heads += [*((f"through {axis}", "m") for axis in "xyz"), ("pitch", "m/rad")]
+        heads += [(f"through {axis}", "m") for axis in "xyz"]
+        heads += [*((f"from the CG {axis}", "mm") for axis in "xyz"), ("off the CG", "mm")]
+        heads += [("pitch", "m/rad")]
         heads += [("roll stiffness", "N·m/rad"), ("to the first", "°"), ("off the first", "mm")]
-        at = "" if self.at_frequency is None else f", {self.at_frequency:g} Hz"
-        kinds = ["torque roll axis (free)", "elastic roll axis (static stiffness)"]
-        kinds.append(f"elastic roll axis (dynamic stiffness{at})")
         labelled = [[kind, *row] for kind, row in zip(kinds, rows, strict=True)]
         return Table.from_rows(
-            f"{self.powertrain._title}: axes of roll", ["axis", *heads], labelled
+            f"{self.powertrain._title}: axes of roll",
+            ["axis", *heads],
+            labelled,
+            note=units.joined(" ", notes),
         )

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Self
 
+import numpy as np
+
 from crankpin import _core
 from crankpin._support import files, inputs, labels, units
 from crankpin._support.frames import Framed
@@ -23,6 +25,7 @@ from crankpin.analysis.mounts import response as forced
 from crankpin.analysis.mounts.robustness import MountRobustness
 from crankpin.analysis.request import engine_core
 from crankpin.model import engine_files, supports
+from crankpin.model.base_motion import BaseMotion
 from crankpin.model.engine import Engine
 from crankpin.model.forces import ForceTable
 from crankpin.model.mounts import Mount, RigidBody
@@ -58,8 +61,8 @@ class Powertrain(Framed, Input):
     Parameters
     ----------
     engine : Engine or ForceTable or None
-        The engine, with its cycle, shafts and counterweights; or a table of forces without one, or
-        None beside ``forces``.
+        The engine, with its cycle, shafts and counterweights; or a table of forces without one;
+        None beside ``forces``, or of a body that its base alone shakes, such as an instrument.
     body : RigidBody
         Engine, gearbox and all that moves with them.
     mounts : sequence of Mount
@@ -80,8 +83,8 @@ class Powertrain(Framed, Input):
     Raises
     ------
     InputError
-        If there is no mount, or two have one name, nothing shakes the body, the support's
-        coordinates are at other mounts, or mounts with snubbers leave a motion free.
+        If there is no mount, or two have one name, the support's coordinates are at other mounts,
+        or mounts with snubbers leave a motion free.
 
     Examples
     --------
@@ -123,7 +126,7 @@ class Powertrain(Framed, Input):
                 raise inputs.rejected(f"forces[{k}]", table, "give a crankpin.ForceTable")
         if isinstance(engine, ForceTable):
             engine, tables = None, [engine, *tables]
-        if engine is not None or not tables:
+        if engine is not None:
             engine_core(engine)
         if not isinstance(body, RigidBody):
             raise inputs.rejected("body", body, "give a crankpin.RigidBody")
@@ -172,7 +175,7 @@ class Powertrain(Framed, Input):
     def title(self) -> str:
         """Names of the engine and the tables of forces, or substitutes."""
         engine = [] if self.engine is None else [self.engine.title]
-        return " and ".join([*engine, *(table.title for table in self.forces)])
+        return " and ".join([*engine, *(table.title for table in self.forces)]) or "body"
 
     @property
     def loads_counted(self) -> str:
@@ -213,12 +216,12 @@ class Powertrain(Framed, Input):
 
     @property
     def table(self) -> Table:
-        """Places and static stiffness of the mounts, under the mass of the body."""
+        """Places of the mounts and static stiffness, about their axes too; mass of the body."""
         place, stiffness = (
             [*zip(*(getattr(mount, name) for mount in self.mounts), strict=True)]
             for name in ("at", "stiffness")
         )
-        columns = (
+        columns: tuple[Column, ...] = (
             Column("mount", self.names),
             *(Column(axis, values, "m") for axis, values in zip("xyz", place, strict=True)),
             *(
@@ -226,6 +229,12 @@ class Powertrain(Framed, Input):
                 for k, values in enumerate(stiffness, 1)
             ),
         )
+        about = np.array([mount.rotational_stiffness for mount in self.mounts])
+        if about.any():
+            columns += tuple(
+                Column(f"stiffness about axis {k}", values, "N·m/rad")
+                for k, values in enumerate(about.T, 1)
+            )
         mass = units.figure(self.body.mass, "kg", 6)
         title = units.Text(f"{self._title}\nbody of ", mass)
         return Table(title, columns, loads=self.loads_counted)
@@ -398,7 +407,12 @@ class Powertrain(Framed, Input):
 
     @documented()
     def response(
-        self, rpm: ArrayLike, *, orders: Orders = "auto", rtol: float | None = None
+        self,
+        rpm: ArrayLike | None = None,
+        *,
+        orders: Orders = "auto",
+        rtol: float | None = None,
+        base: BaseMotion | None = None,
     ) -> MountResponse:
         """Return forces, motion and power at each speed and order of the engine.
 
@@ -407,16 +421,21 @@ class Powertrain(Framed, Input):
 
         Parameters
         ----------
-        rpm : array_like
-            Crank speeds, rpm: one, or several as a dimension of the result.
+        rpm : array_like, optional
+            Crank speeds, rpm: one, or several as a dimension of the result. Left out where a base
+            moves by frequency, and the engine stands.
         orders : number, sequence of numbers or "auto", default "auto"
             Multiples of crank speed, halves too, or ``"auto"`` for those of the engine's balance
-            that reach ``rtol``.
+            that reach ``rtol``, and those of a base that moves.
+        base : BaseMotion, optional
+            Motion of what carries the mounts, or the subframe under them; by default it does not
+            move. By frequency it moves alone, by order while the engine runs.
 
         Returns
         -------
         MountResponse
-            Forces of the mounts, motion of points, power, transmissibility.
+            Forces of the mounts, motion of points, power, transmissibility; on a base that moves a
+            :class:`~crankpin.results.BaseResponse`.
 
         Raises
         ------
@@ -428,8 +447,36 @@ class Powertrain(Framed, Input):
         -----
         UserWarning
             If pistons are faster than in any engine, or the mounts leave a motion free.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> body = cp.RigidBody(mass=150, cg=(0, 0.06, 0.15), inertia=(7, 8, 4.5))
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5, loss_factor=0.1)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> floor = cp.BaseMotion({f: (0, 0.05, 0) for f in (2, 10, 50)}, of="acceleration")
+        >>> r = p.response(base=floor)
+        >>> r.at((0, 0.3, 0)).base_transmissibility[:, 0, 1].round(3)
+        array([1.048, 6.809, 0.03 ])
         """
-        return forced.response(self, rpm, orders=orders, rtol=rtol)
+        moving: object = base
+        if not isinstance(moving, BaseMotion | None):
+            raise inputs.rejected("base", moving, "give a crankpin.BaseMotion")
+        if base is not None and base.by == "frequency":
+            hint = "leave it out: the base moves by frequency"
+            for name, value, default in (("rpm", rpm, None), ("rtol", rtol, None)):
+                if value is not default:
+                    raise inputs.rejected(name, value, hint)
+            if not isinstance(orders, str):
+                raise inputs.rejected("orders", orders, hint)
+            return forced.response_to(base, self)
+        if rpm is None:
+            hint = "give crank speeds, or a base that moves by frequency"
+            raise inputs.rejected("rpm", rpm, hint)
+        return forced.response(self, rpm, orders=orders, rtol=rtol, base=base)
 
     def _cancelled(
         self,

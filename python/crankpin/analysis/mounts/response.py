@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.frames import Frames, Tabled
-from crankpin._support.messages import warn
+from crankpin._support.messages import Hint, warn
 from crankpin._support.quantities import COMPONENTS_OF_LOADS, MOTIONS, MOUNTED
 from crankpin._support.record import AbsentError, changed, read_only
 from crankpin._support.tables import Column, Item, Table
@@ -35,13 +35,22 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.model.actuators import Actuator
+    from crankpin.model.base_motion import BaseMotion
+    from crankpin.model.engine import Engine
 
 Source: TypeAlias = tuple[Any, ...]
 """Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
 READ = {"displacement": ("µm", 1e6), "velocity": ("mm/s", 1e3), "acceleration": ("m/s²", 1.0)}
 """Motion of a point → the unit in which it is read, and how many of it the unit of the array is."""
+OF_SUBFRAME = ("ground_force", "subframe_motion")
+"""Quantities of a response on a subframe."""
+OF_BASE = ("base_motion", "base_transmissibility")
+"""Quantities of a response on a base that moves."""
+MOTION_COMPONENTS = ("x", "y", "z", "about x", "about y", "about z")
+"""Names of displacements along the axes and rotations about them."""
 HIGHEST_GRADE = "> 180"
 """Text of an infinite grade."""
+SECONDS_PER_MINUTE = 60.0
 SUPPORT = "support"
 """Name of the support, beside a place on it."""
 SCOPE = (
@@ -52,15 +61,30 @@ SCOPE = (
 
 
 def response(
-    powertrain: Powertrain, rpm: ArrayLike, *, orders: Orders, rtol: float | None
+    powertrain: Powertrain,
+    rpm: ArrayLike,
+    *,
+    orders: Orders,
+    rtol: float | None,
+    base: BaseMotion | None = None,
 ) -> MountResponse:
     """Return the response; :meth:`Powertrain.response` documents the arguments."""
     request = Request.checked(orders=orders, rtol=rtol, spectrum=None, torque=True)
     speeds = inputs.array("rpm", rpm)
     checked: Any = inputs.copied(inputs.vector("rpm", speeds)) if speeds.ndim else float(speeds)
-    response = MountResponse(powertrain, checked, request)
+    given = (powertrain, checked, request)
+    response = MountResponse(*given) if base is None else BaseResponse(*given, base)
     if powertrain.engine is not None:
         inputs.warn_of_units(mean_piston_speed(powertrain.engine, float(np.max(speeds))))
+    _warn_of_free_motion(response)
+    return response
+
+
+def response_to(base: BaseMotion, powertrain: Powertrain) -> BaseResponse:
+    """Return the response to a base that moves by frequency alone, which is order 1 of a speed."""
+    rpm: Any = SECONDS_PER_MINUTE * base._numbers
+    request = Request.checked(orders=1, rtol=None, spectrum=None, torque=True)
+    response = BaseResponse(powertrain, rpm if len(rpm) > 1 else float(rpm[0]), request, base)
     _warn_of_free_motion(response)
     return response
 
@@ -159,6 +183,21 @@ class PointMotion(Labelled):
         return self._quantity("acceleration")
 
     @property
+    def base_transmissibility(self) -> NDArray[np.float64]:
+        """Magnitude along x, y and z over that of the base at the same place: (…, n_orders, 3).
+
+        Of a response on a base that moves; NaN where that does not move in the direction.
+        """
+        if isinstance(self.point, str) or self.on == SUPPORT:
+            hint = "give a place of the powertrain"
+            raise inputs.faulty("base_transmissibility", "is undefined", hint, AbsentError)
+        moved, base = self.read("displacement"), self.result._base_at(self.point)
+        ratio = ratio_of(moved, base)
+        if self.order in (None, ALL):
+            return ratio
+        return np.asarray(ratio[..., self.orders.index(self.order), :])
+
+    @property
     def grade(self) -> Any:  # noqa: ANN401 - a number at one speed
         """Vibration severity grade of ISO 10816-6 at each speed: (…).
 
@@ -186,7 +225,7 @@ class PointMotion(Labelled):
         result, order, note = self.result, self.order, ""
         whole = result.dims or order is not None
         if result.dims:
-            columns = [Column("rpm", np.asarray(result.rpm), digits=10)]
+            columns = [result._speeds()]
             order = ALL if order is None else order
         elif whole:
             columns = [Column("order", (order,))]
@@ -203,7 +242,8 @@ class PointMotion(Labelled):
         if result.dims and len(speeds := columns[0].data) > 1:
             largest = int(np.argmax(columns[2].data))
             most = units.figure(columns[2].data[largest], "mm/s", 4)
-            note = units.Text("Largest velocity ", most, f" at {speeds[largest]:.10g} rpm.")
+            at = f" at {speeds[largest]:.10g} {columns[0].unit or columns[0].name}."
+            note = units.Text("Largest velocity ", most, at)
         if self.order in (None, ALL):
             grades = [
                 HIGHEST_GRADE if g == np.inf else g for g in np.atleast_1d(self.grade).tolist()
@@ -222,6 +262,14 @@ def _require_subframe(powertrain: Powertrain, name: str) -> None:
     if not isinstance(powertrain.support, Subframe):
         hint = "no subframe carries the mounts; give one, p.with_support(cp.Subframe(…))"
         raise inputs.faulty(name, "is undefined", hint, AbsentError)
+
+
+def ratio_of(part: NDArray[Any], whole: NDArray[Any]) -> NDArray[np.float64]:
+    """Return the ratio of magnitudes, NaN where there is nothing."""
+    size = np.abs(whole)
+    ratio = np.full(size.shape, np.nan)
+    np.divide(np.abs(part), size, out=ratio, where=size > 0.0)
+    return ratio
 
 
 class MountQuantities:
@@ -293,6 +341,23 @@ class MountQuantities:
         Of shape (…, n_orders, n_loads).
         """
         return self._quantity("transmissibility_db")
+
+    @property
+    def base_motion(self) -> Quantity[np.complex128]:
+        """Displacement of a base that moves at the CG, m, and rotation, rad.
+
+        Of shape (…, n_orders, n_loads); an AttributeError where the base does not move.
+        """
+        return self._quantity("base_motion")
+
+    @property
+    def base_transmissibility(self) -> Quantity[np.float64]:
+        """Magnitude of ``motion`` over that of ``base_motion``, of each component.
+
+        NaN where the base does not move in that direction. Of shape (…, n_orders, n_loads); an
+        AttributeError where the base does not move.
+        """
+        return self._quantity("base_transmissibility")
 
     @property
     def power_in(self) -> Quantity[np.float64]:
@@ -487,13 +552,16 @@ class MountResponse(MountQuantities, Keyed, Labelled):
 
     @property
     def _names(self) -> tuple[str, ...]:
-        of_subframe = ("ground_force", "subframe_motion")
         has_subframe = isinstance(self.powertrain.support, Subframe)
-        return tuple(name for name in MOUNTED if has_subframe or name not in of_subframe)
+        absent = (*(() if has_subframe else OF_SUBFRAME), *(() if self._base_moves else OF_BASE))
+        return tuple(name for name in MOUNTED if name not in absent)
 
     def _check(self, quantity: str) -> None:
-        if quantity in ("ground_force", "subframe_motion"):
+        if quantity in OF_SUBFRAME:
             _require_subframe(self.powertrain, quantity)
+        if quantity in OF_BASE and not self._base_moves:
+            hint = "the base does not move; give its motion, `base`"
+            raise inputs.faulty(quantity, "is undefined", Hint.of(hint), AbsentError)
         super()._check(quantity)
 
     def _dims(self, quantity: str, what: str = VALUES) -> tuple[str, ...]:
@@ -521,6 +589,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
             return self.read("support_wrench")[..., :3]
         if quantity in ("transmissibility", "transmissibility_db"):
             return self._ratio(quantity)
+        if quantity == "base_transmissibility":
+            return ratio_of(self.read("motion"), self.read("base_motion"))
         if quantity.startswith("power"):
             power = self._once("power", lambda: self._by_speed(self._core.power()))
             places: dict[str, Any] = {
@@ -537,6 +607,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
             "support_wrench": lambda: core.support_loads(self._point),
             "motion": core.motions,
             "subframe_motion": core.subframe_motions,
+            "base_motion": core.base_motions,
         }
         return self._by_speed(compute[quantity]())
 
@@ -545,10 +616,12 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         if quantity == "transmissibility_db":
             with np.errstate(divide="ignore"):  # nothing passes
                 return np.asarray(20.0 * np.log10(self.read("transmissibility")))
-        load = np.abs(self.read("wrench"))
-        ratio = np.full(load.shape, np.nan)
-        np.divide(np.abs(self.read("support_wrench")), load, out=ratio, where=load > 0.0)
-        return ratio
+        return ratio_of(self.read("support_wrench"), self.read("wrench"))
+
+    def _base_at(self, point: tuple[float, float, float]) -> NDArray[np.complex128]:
+        """Return the displacement of a base that moves at a point."""
+        self._check("base_motion")
+        return self._by_speed(self._core.base_at(point, "displacement"))
 
     def _vectors(self, source: Source) -> NDArray[np.complex128]:
         """Return peak phasors of a vector: (…, n_orders, 3)."""
@@ -629,29 +702,34 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         z = self._request.reference_z
         return None if z is None else (*self._request.aside, z)
 
-    def sel(self, *, rpm: float) -> Self:  # type: ignore[override] # of its one dimension
-        """Return the response at one of the speeds.
+    def sel(  # type: ignore[override] # of its one dimension
+        self, *, rpm: float | None = None, frequency: float | None = None
+    ) -> Self:
+        """Return the response at one of the speeds, or of the frequencies.
 
         Parameters
         ----------
-        rpm : float
+        rpm : float, optional
             One of the speeds given.
+        frequency : float, optional
+            In its place, one of the frequencies of a base that moves by frequency, Hz.
 
         Returns
         -------
         MountResponse
-            The response at that speed alone.
+            The response at that alone.
 
         Raises
         ------
         InputError
-            If it is not among them.
+            If it is not among them, or both are given or none.
         """
-        speeds = np.atleast_1d(self.rpm)
-        index = export.place_of("rpm", rpm, speeds)
-        return changed(
-            self, rpm=float(speeds[index]), **(self._of_speed(index) if self.dims else {})
-        )
+        inputs.only_one_of(rpm=rpm, frequency=frequency)
+        name, value = ("rpm", rpm) if frequency is None else ("frequency", frequency)
+        inputs.one_of("dimension", name, ("frequency",) if self._stands else ("rpm",))
+        index = export.place_of(name, value, np.atleast_1d(self._speeds().data))
+        speed = float(np.atleast_1d(self.rpm)[index])
+        return changed(self, rpm=speed, **(self._of_speed(index) if self.dims else {}))
 
     def _of_speed(self, index: int | slice) -> dict[str, Any]:
         """Return what else changes where one of the speeds is taken, or some."""
@@ -783,9 +861,23 @@ class MountResponse(MountQuantities, Keyed, Labelled):
     _driven = ""
     """What its titles say of actuators."""
 
+    _base_moves = False
+    """True of a response on a base that moves."""
+    _stands = False
+    """True where nothing but the base moves, by frequency."""
+
+    def _at(self) -> str:
+        """Return the speed, in words, of one speed."""
+        return labels.at_speed(float(self.rpm))
+
+    def _speeds(self) -> Column:
+        """Return the speeds as a column."""
+        return Column("rpm", np.asarray(self.rpm), digits=10)
+
     def _title(self, of: str) -> str:
-        at = "" if self.dims else f" {labels.at_speed(float(self.rpm))}"
-        which = " of the orders given" if self._request.orders is not None else ""
+        at = "" if self.dims else f" {self._at()}"
+        given = self._request.orders is not None and not self._stands
+        which = " of the orders given" if given else ""
         return units.Text(f"{self.powertrain._title_with(self._driven)}{at}: ", of, which)
 
     def _first_rows(self, rows: int, read: Callable[[Self], Table]) -> Table | None:
@@ -806,7 +898,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         """
         force, note = self.body_force, ""
         if self.dims:
-            columns = [Column("rpm", np.asarray(self.rpm), digits=10)]
+            columns = [self._speeds()]
             force = force.total
         else:
             places, note = self._shown()
@@ -853,7 +945,8 @@ class MountResponse(MountQuantities, Keyed, Labelled):
             unit = "N" if name.startswith("F") else "N·m"
             if not np.any(load) and not np.any(support):
                 continue
-            columns.append(Column(f"|{name}| of the engine", np.abs(load), unit))
+            if np.any(load) or not self._base_moves:
+                columns.append(Column(f"|{name}| of the engine", np.abs(load), unit))
             columns.append(Column(f"|{name}| on the body", np.abs(support), unit))
             for values, in_unit in ((ratio, ""), (decibels, "dB")):
                 if np.isnan(values).all():
@@ -876,7 +969,7 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         columns.append(Column("put in", listed(self.power_in), "W"))
         for name, lost in zip(self.powertrain.names, self.power_lost.T, strict=True):
             columns.append(Column(name, listed(lost), "W"))
-        if self.powertrain.support is not None:
+        if self.powertrain.support is not None or self._base_moves:
             columns.append(Column("passed on", listed(self.power_passed), "W"))
         title = self._title("mean power that the engine puts in, and that each mount dissipates")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
@@ -886,13 +979,14 @@ class MountResponse(MountQuantities, Keyed, Labelled):
 
         By order at one speed, else at each speed of the order, or of all orders together.
         """
-        free = [name for name in quantity.dims if name not in ("rpm", "order", "axis")]
+        free = [name for name in quantity.dims if name not in (*self.dims, "order", "axis")]
         if not quantity.kind.axes or free or "axis" in dict(quantity.selected):
             return super()._table_of(quantity)
-        swept, order, note = "rpm" in quantity.dims, quantity.order, ""
+        swept, order, note = {*self.dims} <= {*quantity.dims}, quantity.order, ""
+        swept = swept and bool(self.dims)
         vector = changed(quantity, order=ALL if order is None and swept else order)
         if swept:
-            columns = [Column("rpm", np.asarray(self.rpm), digits=10)]
+            columns = [self._speeds()]
         elif order is not None:
             columns = [Column("order", (order,))]
         else:
@@ -910,3 +1004,129 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         which = vector._which
         title = self._title(f"{quantity.words}{which and f',{which}'}")
         return Table(title, tuple(columns), note, loads=self.loads_counted)
+
+
+class BaseResponse(MountResponse):
+    """Response of a powertrain on a base that moves: read as one on a base that does not.
+
+    Where the base moves by frequency the engine stands, arrays are over ``frequency``, if there are
+    several, and the frequency itself is order 1; ``rpm`` is 60 times the frequency. ``wrench`` is
+    the load of the engine alone. Made by :meth:`Powertrain.response`.
+    """
+
+    powertrain: Powertrain
+    """The powertrain."""
+    rpm: NDArray[np.float64] | float
+    """Crank speeds: an array where several were given, else a number."""
+    _request: Request
+    """Orders and tolerance, checked."""
+    base: BaseMotion
+    """Motion of the base."""
+
+    _base_moves = True
+    _driven = ", on a base that moves"
+
+    @property
+    def _stands(self) -> bool:  # type: ignore[override] # of each
+        """True if the base moves by frequency, and the engine stands."""
+        return self.base.by == "frequency"
+
+    def _drive(self) -> tuple[Any, ...]:
+        return None, self.base._figures()
+
+    def _of_speed(self, index: int | slice) -> dict[str, Any]:
+        return {"base": self.base._picked(index)} if self._stands else {}
+
+    @property
+    def frequency(self) -> NDArray[np.float64] | float:
+        """Frequencies of a base that moves by frequency, Hz: an array where there are several."""
+        if not self._stands:
+            hint = "the base moves by order of crank speed"
+            raise inputs.faulty("frequency", "is undefined", hint, AbsentError)
+        numbers = self.base._numbers
+        return read_only(numbers) if len(numbers) > 1 else float(numbers[0])
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the speeds, or the frequencies, where there are several."""
+        if not self._stands:
+            return super().coords
+        return {"frequency": self.frequency} if isinstance(self.rpm, np.ndarray) else {}
+
+    @property
+    def _attributes(self) -> Mapping[str, Any]:
+        if not self._stands:
+            return super()._attributes
+        return {} if self.dims else {"frequency": self.frequency}
+
+    @property
+    def loads_counted(self) -> str:
+        """Loads that count beside the base, in words: as :attr:`Engine.loads_counted`."""
+        return "" if self._stands else super().loads_counted
+
+    @property
+    def _of_engines(self) -> tuple[Engine, ...]:
+        return () if self._stands else super()._of_engines
+
+    def _sense_of_phases(self) -> str:
+        if self._stands:
+            return "A motion is amplitude·cos(ω·t + phase_deg), with the phases of the base."
+        return super()._sense_of_phases()
+
+    def _at(self) -> str:
+        return f"at {self.frequency:g} Hz" if self._stands else super()._at()
+
+    def _speeds(self) -> Column:
+        if self._stands:
+            return Column("f", np.asarray(self.frequency), "Hz", digits=10)
+        return super()._speeds()
+
+    def cancel(self, *arguments: Any, **options: Any) -> Cancellation:  # noqa: ANN401
+        """Raise an error: actuators act on a base that does not move.
+
+        Parameters
+        ----------
+        *arguments : tuple, optional
+            Those of :meth:`MountResponse.cancel`.
+        **options : dict, optional
+            Its options.
+
+        Returns
+        -------
+        Cancellation
+            Nothing: it raises.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        hint = "actuators act against the engine's orders, on a base that does not move"
+        raise inputs.faulty("cancel", "is undefined", hint)
+
+    def _at_order(self, order: Order) -> MountResponse:
+        if self._stands and order not in self.orders:
+            raise inputs.rejected("order", order, "the base moves by frequency, which is order 1")
+        return super()._at_order(order)
+
+    @property
+    def table(self) -> Table:
+        """Peaks of the force on the body, and of each mount, and transmissibility from the base.
+
+        By order at one speed, else at each frequency, or of all orders together at each speed.
+        """
+        table = super().table
+        if self.dims and not self._stands:
+            return table
+        ratio = np.asarray(self.base_transmissibility)
+        if self.dims:
+            rows = ratio[:, 0]
+        else:
+            rows = np.concatenate([ratio[self._shown()[0]], np.full((1, ratio.shape[-1]), np.nan)])
+        columns = [*table.columns]
+        for name, values in zip(MOTION_COMPONENTS, rows.T, strict=True):
+            if not np.isnan(values).all():
+                cells = (None if np.isnan(value) else value for value in values.tolist())
+                columns.append(Column(f"T {name}", tuple(cells)))
+        note = units.joined(" ", [table.note, "T: motion of the CG over that of the base there."])
+        return changed(table, columns=tuple(columns), note=note)

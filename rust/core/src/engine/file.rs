@@ -47,7 +47,7 @@ struct EngineFile {
     /// Running gear of every station that has none of its own.
     #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
-    /// Left out of a file of a body that a table of forces shakes alone.
+    /// Left out of a file of a body without an engine.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     placements: Vec<StationEntry>,
     /// On the crankshaft, besides the rotating masses.
@@ -406,8 +406,8 @@ impl EngineFile {
     fn mounted(mut self) -> Result<(Option<Engine>, Option<Powertrain>)> {
         let powertrain = self.powertrain.take();
         let powertrain = powertrain.map(|entry| entry.powertrain("powertrain.")).transpose()?;
-        let is_shaken = powertrain.as_ref().is_some_and(|alone| !alone.forces().is_empty());
-        if is_shaken && self.placements.is_empty() {
+        let has_engine = !self.placements.is_empty() || self.cylinder.is_some();
+        if powertrain.is_some() && !has_engine {
             self.check_schema()?;
             return Ok((None, powertrain));
         }
@@ -567,7 +567,7 @@ impl EngineFile {
     fn engine(mut self) -> Result<Engine> {
         self.check_schema()?;
         if self.placements.is_empty() {
-            let hint = "give a cylinder or more: a file without them has a [powertrain] with forces, which \
+            let hint = "give a cylinder or more: a file without them has a [powertrain] alone, which \
                         Powertrain reads";
             return Err(Error::value("placements", "none", hint));
         }
@@ -660,7 +660,7 @@ pub fn from_toml(text: &str) -> Result<Engine> {
     of_toml(text)?.engine()
 }
 
-/// Engine from TOML, and its body on mounts, if there is one; no engine where a table of forces shakes that alone.
+/// Engine from TOML, and its body on mounts, if there is one; no engine where that is alone.
 pub fn mounted_from_toml(text: &str) -> Result<(Option<Engine>, Option<Powertrain>)> {
     of_toml(text)?.mounted()
 }
@@ -684,7 +684,7 @@ pub fn from_json(text: &str) -> Result<Engine> {
     of_checked_json(text)?.engine()
 }
 
-/// Engine from JSON, and its body on mounts, if there is one; no engine where a table of forces shakes that alone.
+/// Engine from JSON, and its body on mounts, if there is one; no engine where that is alone.
 pub fn mounted_from_json(text: &str) -> Result<(Option<Engine>, Option<Powertrain>)> {
     of_checked_json(text)?.mounted()
 }

@@ -1,11 +1,14 @@
 //! Axes: about which a free body turns under a torque of the crank, and about which it turns at rest.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::bodies::{Bodies, load_above};
-use super::modes::{dynamic, natural};
+use super::modes::{NaturalModes, dynamic, natural};
 use super::{Powertrain, ROUNDINGS, real};
 use crate::numbers::error::{Error, Result};
+
+/// Part of the reach of the mounts within which a place is the CG, or a coupling none: rounding of a few compliances.
+const CENTRE_ROUNDING: f64 = 1e-10;
 
 /// Torque roll axis, elastic roll axis, and where they are.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +33,10 @@ pub struct ElasticAxis {
     pub direction: [f64; 3],
     /// Point of it next to the CG, m.
     pub foot: [f64; 3],
+    /// From the CG to that point, m: across the axis.
+    pub from_cg: [f64; 3],
+    /// Elastic centre, m: a force through it causes no rotation; none where no point is such.
+    pub centre: Option<[f64; 3]>,
     /// Shift along it over the rotation, m/rad; 0 of a plain axis.
     pub pitch: f64,
     /// Its angle to the crank's axis, degrees.
@@ -107,12 +114,36 @@ fn elastic<const N: usize>(
     Ok(ElasticAxis {
         direction: direction.into(),
         foot: foot.value.into(),
+        from_cg: from_cg.value.into(),
+        centre: centre(bodies, &modes),
         pitch: turn.dot(&shift) / square,
         angle_deg: angle(&direction, &Vector3::z()),
         compliance: turn.value.z,
         to_torque_roll_deg: angle(&free.value.normalize(), &direction),
         distance,
     })
+}
+
+/// Elastic centre: a force F at a distance d from the CG turns by C·F + T·(d × F), with C and T the rotations under
+/// forces through the CG and under moments, none of any F where the matrix −T⁻¹·C is that of d ×, skew.
+fn centre<const N: usize>(bodies: &Bodies<N>, modes: &NaturalModes<N>) -> Option<[f64; 3]> {
+    let turned = |k: usize| {
+        let unit = Vector6::from_fn(|row, _| f64::from(u8::from(row == k)));
+        let (motion, _) = modes.flexed(bodies, &load_above(&unit));
+        Vector3::new(motion[3], motion[4], motion[5])
+    };
+    let by_force = Matrix3::from_columns(&[turned(0), turned(1), turned(2)]);
+    let by_moment = Matrix3::from_columns(&[turned(3), turned(4), turned(5)]);
+    let across = -by_moment.try_inverse()? * by_force;
+    let coupled = (across + across.transpose()).amax();
+    let mounts = bodies.powertrain.mounts().iter();
+    let reach = mounts.map(|mount| (mount.at() - bodies.centre()).norm()).fold(0.0, f64::max);
+    let rounding = CENTRE_ROUNDING * reach;
+    let [x, y, z] = [(2, 1), (0, 2), (1, 0)]
+        .map(|(row, column)| 0.5 * (across[(row, column)] - across[(column, row)]));
+    let snapped = |part: f64| if part.abs() <= rounding { 0.0 } else { part };
+    let place = bodies.centre() + Vector3::new(x, y, z).map(snapped);
+    (coupled <= rounding).then(|| place.map(snapped).into())
 }
 
 /// A vector of which no component is within its bound of rounding, but zero.

@@ -10,6 +10,11 @@ const ASYMMETRY_BY_ROUNDING: f64 = 1e-9;
 /// Least principal moment over the largest of a tensor that has an inverse to some digits.
 const LEAST_MOMENT: f64 = 1e-12;
 
+/// Least and largest side of a block, m.
+const SIDES: [f64; 2] = [1e-3, 1e3];
+/// Least and largest density of a block, kg/m³.
+const DENSITIES: [f64; 2] = [1.0, 1e5];
+
 /// Sign convention of products of inertia.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Products {
@@ -81,16 +86,16 @@ impl RigidBody {
 
     /// A cuboid of one density, kg/m³, with sides along x, y and z, m, about its centre, m.
     pub fn block(sides: [f64; 3], centre: [f64; 3], density: f64) -> Result<Self> {
+        let check = |name: &str, value: f64, [least, most]: [f64; 2], what: &str, of: &str| {
+            if (least..=most).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::figure(name, value, format!("give {what}, {least} to {most}{of}")))
+        };
         for (name, side) in ["width", "height", "length"].into_iter().zip(sides) {
-            limits::length(name, side)?;
+            check(name, side, SIDES, "metres", "")?;
         }
-        if !(limits::SMALLEST..=limits::LARGEST).contains(&density) {
-            return Err(Error::figure(
-                "density",
-                density,
-                "give kg/m³, above zero: 2400 of concrete",
-            ));
-        }
+        check("density", density, DENSITIES, "kg/m³", ": 2400 of concrete")?;
         let mass = density * sides.iter().product::<f64>();
         let squares = sides.map(|side| side * side);
         let all = squares.iter().sum::<f64>();
@@ -196,6 +201,26 @@ mod tests {
         assert!(error.starts_with("products = None: give \"tensor\""), "{error}");
         let diagonal = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.5]];
         assert!(RigidBody::new(1.0, [0.0; 3], diagonal, None).is_ok());
+    }
+
+    #[test]
+    fn blocks_have_the_sides_and_the_density_of_some_material() {
+        let error =
+            |sides, density| RigidBody::block(sides, [0.0; 3], density).unwrap_err().to_string();
+        for (k, name) in ["width", "height", "length"].into_iter().enumerate() {
+            for wrong in [0.0, -1.0, 0.9e-3, 1.1e3, f64::NAN] {
+                let mut sides = [2.0; 3];
+                sides[k] = wrong;
+                let said = format!("{name} = {wrong:?}: give metres, 0.001 to 1000");
+                assert!(error(sides, 2400.0).starts_with(&said), "{}", error(sides, 2400.0));
+            }
+        }
+        for wrong in [0.0, 0.9, 1.1e5, f64::NAN] {
+            let said = format!("density = {wrong:?}: give kg/m³, 1 to 100000: 2400 of concrete");
+            assert!(error([2.0; 3], wrong).starts_with(&said), "{}", error([2.0; 3], wrong));
+        }
+        let block = RigidBody::block([1e-3, 1e3, 2.0], [0.0; 3], 1e5).unwrap();
+        assert!((block.mass() - 2e5).abs() < 1e-9);
     }
 
     #[test]

@@ -325,8 +325,13 @@ impl Powertrain {
     /// Motion of a point, of a motion.
     #[must_use]
     pub fn motion_of(&self, point: [f64; 3], motion: &ComplexVector6) -> [Complex64; 3] {
-        let arm = Vector3::from(point) - self.body.cg();
-        (complex(&motion_of_point(&arm)) * motion).into()
+        (complex(&motion_of_point(&self.arm(&point.into()))) * motion).into()
+    }
+
+    /// How far a point is from the CG, m.
+    #[must_use]
+    pub fn arm(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        point - self.body.cg()
     }
 }
 

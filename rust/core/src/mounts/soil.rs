@@ -1,9 +1,11 @@
 //! Soil under the base of a block: springs and dashpots of the elastic half-space.
 //!
-//! Stiffness and dashpots are those of Richart, Hall and Woods, Vibrations of Soils and Foundations (1970), chapter 10:
-//! of a circular base, and of a rectangular one by the circles of equal area and of equal second moments of area.
-//! Factors of embedment are Whitman's, as in Arya, O'Neill and Pincus, Design of Structures and Foundations for
-//! Vibrating Machines (1979), chapter 4, which has none for torsion.
+//! Stiffness and dashpots are those of Richart, Hall and Woods, Vibrations of Soils and Foundations (1970), chapter 10,
+//! of a circular base: springs as in table 3 of Whitman and Richart, J. Soil Mech. Found. Div. ASCE 93 SM6 (1967) 169,
+//! with mass and damping ratios in table 12-1 of UFC 3-220-01N (2005). A rectangular base has the circles of equal area
+//! and of equal second moments of area, whose springs are compared with those of Pais and Kausel (1988), table 2-2a of
+//! NIST GCR 12-917-21 (2012). Factors of embedment are Whitman's, as in Arya, O'Neill and Pincus, Design of Structures
+//! and Foundations for Vibrating Machines (1979), chapter 4, which has none for torsion.
 
 use std::f64::consts::PI;
 

@@ -268,6 +268,17 @@ impl Powertrain {
         load: &ComplexVector6,
         point: impl Fn() -> String,
     ) -> Result<Option<State>> {
+        self.state_under(stiffnesses, omega, [load, &ComplexVector6::zeros()], point)
+    }
+
+    /// The same under a load on a subframe too, about its own CG.
+    pub fn state_under(
+        &self,
+        stiffnesses: &[[Complex64; 3]],
+        omega: f64,
+        [load, below]: [&ComplexVector6; 2],
+        point: impl Fn() -> String,
+    ) -> Result<Option<State>> {
         match &self.support {
             None => Ok(self.motion(stiffnesses, omega, load).map(|motion| State {
                 motion,
@@ -275,9 +286,9 @@ impl Powertrain {
                 subframe: ComplexVector6::zeros(),
             })),
             Some(Support::Subframe(subframe)) => {
-                let below = subframe.stiffnesses(omega, &point)?;
-                let all = [stiffnesses, &below].concat();
-                Ok(self.state_on_subframe(subframe, &all, omega, load))
+                let of_subframe = subframe.stiffnesses(omega, &point)?;
+                let all = [stiffnesses, &of_subframe].concat();
+                Ok(self.state_on_subframe(subframe, &all, omega, [load, below]))
             }
             Some(Support::Receptance(receptance)) => {
                 let receptance = receptance.at(omega, &point)?;
@@ -291,7 +302,7 @@ impl Powertrain {
         subframe: &Powertrain,
         stiffnesses: &[[Complex64; 3]],
         omega: f64,
-        load: &ComplexVector6,
+        [load, below]: [&ComplexVector6; 2],
     ) -> Option<State> {
         let square = omega * omega;
         let whole = assembled(&self.of_both, stiffnesses);
@@ -306,6 +317,7 @@ impl Powertrain {
         }
         let mut right = DVector::zeros(12);
         right.rows_mut(0, 6).copy_from(load);
+        right.rows_mut(6, 6).copy_from(below);
         let solved = scaled_solution(&matrix, &scale, &right)?;
         let motion = ComplexVector6::from_fn(|k, _| solved[k]);
         let moved = ComplexVector6::from_fn(|k, _| solved[6 + k]);

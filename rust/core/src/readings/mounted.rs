@@ -46,6 +46,10 @@ pub struct Response {
     carriers: Vec<Vector3<Complex64>>,
     /// Motion of a subframe; empty without one.
     subframe: Vec<ComplexVector6>,
+    /// Motion of a rigid base under all that stands on it, at the CG of the powertrain; empty where it does not move.
+    base: Vec<ComplexVector6>,
+    /// Whether nothing but the base acts, so that its speeds are frequencies.
+    stands: bool,
 }
 
 /// An engine's loads about a centre of gravity.
@@ -102,22 +106,35 @@ impl EngineLoads {
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
+        Self::beside(engine, powertrain, rpm, orders, &[], cancel)
+    }
+
+    /// The same at further orders, at which something else acts.
+    fn beside(
+        engine: Option<&Engine>,
+        powertrain: &Powertrain,
+        rpm: &[f64],
+        orders: &Orders,
+        further: &[Order],
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let (cg, tables) = (powertrain.body().cg(), powertrain.forces());
         let mut loads = match engine {
             Some(engine) => Self::of_engine(engine, cg, rpm, orders, cancel)?,
-            None if tables.is_empty() => {
-                let hint = "nothing shakes the body: give an engine, or a table of forces";
+            None if tables.is_empty() && further.is_empty() => {
+                let hint = "nothing shakes the body: give an engine, a table of forces, or a base that moves";
                 return Err(Error::value("engine", "None", hint));
             }
             None => Self::at_speeds(rpm)?,
         };
-        if tables.is_empty() {
+        if tables.is_empty() && further.is_empty() {
             return Ok(loads);
         }
         let mut all = match orders {
             Orders::Given(orders) => orders.clone(),
             Orders::Auto { .. } => {
-                let of_tables = tables.iter().flat_map(ForceTable::orders);
+                let of_tables =
+                    tables.iter().flat_map(ForceTable::orders).chain(further.iter().copied());
                 loads.orders.iter().copied().chain(of_tables).collect()
             }
         };
@@ -291,11 +308,17 @@ impl Response {
         orders: &Orders,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let of_engine = EngineLoads::new(engine, &powertrain, rpm, orders, cancel)?;
+        let loads = EngineLoads::new(engine, &powertrain, rpm, orders, cancel)?;
+        Self::under(loads, powertrain)
+    }
+
+    /// These loads, and no motion.
+    fn under(of_engine: EngineLoads, powertrain: Arc<Powertrain>) -> Result<Self> {
+        let speeds = of_engine.omega.len();
         let count = of_engine.orders.len();
         let hint = "give fewer speeds or orders";
-        limits::result_size("response", &[rpm.len(), count, 6], size_of::<Complex64>(), hint)?;
-        let mut loads = memory::with_capacity(rpm.len() * count)?;
+        limits::result_size("response", &[speeds, count, 6], size_of::<Complex64>(), hint)?;
+        let mut loads = memory::with_capacity(speeds * count)?;
         for omega in &of_engine.omega {
             loads.extend(of_engine.at_speed(*omega));
         }
@@ -310,27 +333,42 @@ impl Response {
             motions: Vec::new(),
             carriers: Vec::new(),
             subframe: Vec::new(),
+            base: Vec::new(),
+            stands: false,
         })
     }
 
-    /// Motion under the load of a point, a load that is not zero.
-    fn state(&self, point: usize, rpm: f64) -> Result<State> {
+    /// Motion under the loads of a point on the powertrain and on its subframe, which are not zero.
+    fn state(&self, point: usize, rpm: f64, loads: [&ComplexVector6; 2]) -> Result<State> {
         let (_, order) = self.place(point);
         let omega = self.omega_of(point);
         let stiffnesses = self.stiffnesses(point, rpm)?;
-        let words = || format!("order {order} at {rpm} rpm");
-        let state = self.powertrain.state(&stiffnesses, omega, &self.loads[point], words)?;
+        let words = || self.words(point, rpm);
+        let state = self.powertrain.state_under(&stiffnesses, omega, loads, words)?;
         state.ok_or_else(|| {
-            let hint = format!(
-                "order {order} is at {:.6} Hz, where the powertrain has a mode without damping and \
-                 its motion is unbounded; give mounts a loss_factor or damping, or another speed",
-                omega / TAU
-            );
+            let unbounded = "where the powertrain has a mode without damping and its motion is unbounded; give mounts \
+                             a loss_factor or damping, or another";
+            let frequency = omega / TAU;
+            if self.stands {
+                return Error::figure("frequency", frequency, format!("{unbounded} frequency"));
+            }
+            let hint = format!("order {order} is at {frequency:.6} Hz, {unbounded} speed");
             Error::figure("rpm", rpm, hint)
         })
     }
 
+    /// A point of operation, in words.
+    fn words(&self, point: usize, rpm: f64) -> String {
+        if self.stands {
+            return format!("{} Hz", self.omega_of(point) / TAU);
+        }
+        format!("order {} at {rpm} rpm", self.place(point).1)
+    }
+
     fn solve(&mut self, rpm: &[f64], cancel: &Cancel) -> Result<()> {
+        let [loads, below] = self.driving(rpm)?;
+        let none = ComplexVector6::zeros();
+        let below = |point: usize| below.get(point).unwrap_or(&none);
         let (points, count) = (self.loads.len(), self.powertrain.mounts().len());
         let moves = usize::from(self.powertrain.support().is_some());
         let mut motions = memory::collected(std::iter::repeat_n(ComplexVector6::zeros(), points))?;
@@ -363,15 +401,16 @@ impl Response {
         pool::each(cancel, parts, numbers * points, |(piece, motions, carriers, subframe)| {
             cancel.check()?;
             let solved = match &equations {
-                Some(equations) => self.solve_in_lanes(equations, rpm, piece, motions)?,
+                Some(equations) => self.solve_in_lanes(equations, rpm, piece, &loads, motions)?,
                 None => vec![false; motions.len()], // bounded: a piece of the points
             };
             for (k, motion) in motions.iter_mut().enumerate() {
                 let point = piece * POINTS_PER_TASK + k;
-                if solved[k] || self.loads[point] == ComplexVector6::zeros() {
+                if solved[k] || (loads[point] == none && *below(point) == none) {
                     continue;
                 }
-                let state = self.state(point, rpm[self.place(point).0])?;
+                let on_both = [&loads[point], below(point)];
+                let state = self.state(point, rpm[self.place(point).0], on_both)?;
                 *motion = state.motion;
                 if let Some(place) = carriers.get_mut(k * count..(k + 1) * count) {
                     place.copy_from_slice(&state.carrier);
@@ -382,6 +421,17 @@ impl Response {
             }
             Ok(())
         })?;
+        drop(loads);
+        if moves == 0 && !self.base.is_empty() {
+            let places =
+                self.powertrain.mounts().iter().map(|mount| self.powertrain.arm(&mount.at()));
+            let places: Vec<_> = places.collect(); // bounded: 1000 mounts
+            let at = |base: &ComplexVector6| {
+                places.iter().map(|arm| displaced(base, arm)).collect::<Vec<_>>()
+            };
+            carriers = memory::with_capacity(points * count)?;
+            self.base.iter().for_each(|base| carriers.extend(at(base)));
+        }
         (self.motions, self.carriers, self.subframe) = (motions, carriers, subframe);
         Ok(())
     }
@@ -392,6 +442,7 @@ impl Response {
         equations: &Equations,
         rpm: &[f64],
         piece: usize,
+        loads: &[ComplexVector6],
         motions: &mut [ComplexVector6],
     ) -> Result<Vec<bool>> {
         let first = piece * POINTS_PER_TASK;
@@ -406,27 +457,26 @@ impl Response {
         let mut stiffnesses = vec![[[0.0; LANES]; 2]; 3 * varying.len()];
         for (k, motions) in motions.chunks_mut(LANES).enumerate() {
             let points = first + k * LANES..first + k * LANES + motions.len();
-            let loads = lanes(&self.loads[points.clone()]);
+            let in_lanes = lanes(&loads[points.clone()]);
             let mut rates = [0.0; LANES];
             for l in 0..LANES {
                 let point = (points.start + l).min(points.end - 1);
                 let omega = self.omega_of(point);
                 rates[l] = omega;
-                if varying.is_empty() || self.loads[point] == ComplexVector6::zeros() {
+                if varying.is_empty() || loads[point] == ComplexVector6::zeros() {
                     continue;
                 }
-                let (row, order) = self.place(point);
-                let words = || format!("order {order} at {} rpm", rpm[row]);
+                let words = || self.words(point, rpm[self.place(point).0]);
                 for (mount, along) in varying.iter().zip(stiffnesses.chunks_mut(3)) {
                     for (value, to) in mount.stiffness_at(omega, words)?.iter().zip(along) {
                         (to[0][l], to[1][l]) = (value.re, value.im);
                     }
                 }
             }
-            let (solved, moved) = equations.motions(&turns, &rates, &stiffnesses, &loads);
+            let (solved, moved) = equations.motions(&turns, &rates, &stiffnesses, &in_lanes);
             for (l, motion) in motions.iter_mut().enumerate() {
                 all.push(solved[l]);
-                if solved[l] && self.loads[points.start + l] != ComplexVector6::zeros() {
+                if solved[l] && loads[points.start + l] != ComplexVector6::zeros() {
                     let part = |k: usize, _| Complex64::new(moved[0][k][l], moved[1][k][l]);
                     *motion = ComplexVector6::from_fn(part);
                 }
@@ -447,9 +497,7 @@ impl Response {
     }
 
     fn stiffnesses(&self, point: usize, rpm: f64) -> Result<Vec<[Complex64; 3]>> {
-        let (_, order) = self.place(point);
-        let words = || format!("order {order} at {rpm} rpm");
-        self.powertrain.stiffnesses(self.omega_of(point), words)
+        self.powertrain.stiffnesses(self.omega_of(point), || self.words(point, rpm))
     }
 
     /// Multiples of crank speed.
@@ -502,7 +550,9 @@ impl Response {
                 cancel.check()?;
             }
             // Within tables: they were read for the motion. At rest of a load that is zero nothing moves.
-            let stiffnesses = if *motion == ComplexVector6::zeros() {
+            let zero = ComplexVector6::zeros();
+            let base = self.base.get(point);
+            let stiffnesses = if *motion == zero && base.is_none_or(|base| *base == zero) {
                 vec![[Complex64::ZERO; 3]; self.powertrain.deflections().len()] // bounded: springs
             } else {
                 self.stiffnesses(point, f64::NAN)?
@@ -513,7 +563,11 @@ impl Response {
                 motion,
                 stiffnesses: &stiffnesses,
                 carriers: self.carriers.get(point * count..(point + 1) * count).unwrap_or_default(),
-                turned: self.subframe.get(point).map(|moved| moved.fixed_rows::<3>(3).into()),
+                turned: self
+                    .subframe
+                    .get(point)
+                    .or(base)
+                    .map(|moved| moved.fixed_rows::<3>(3).into()),
             })?;
         }
         Ok(())
@@ -666,17 +720,22 @@ impl Response {
         let lengths = [self.motions.len(), count, 3];
         limits::result_size("response", &lengths, size_of::<Complex64>(), "give fewer speeds")?;
         let mut forces = memory::with_capacity(self.motions.len() * count)?;
+        let arms = subframe.mounts().iter().map(|mount| self.powertrain.arm(&mount.at()));
+        let arms: Vec<_> = arms.collect(); // bounded: 1000 mounts
+        let zero = ComplexVector6::zeros();
         for (point, motion) in self.subframe.iter().enumerate() {
             if point.is_multiple_of(POINTS_PER_TASK) {
                 cancel.check()?;
             }
-            if *motion == ComplexVector6::zeros() {
+            let base = self.base.get(point);
+            if *motion == zero && base.is_none_or(|base| *base == zero) {
                 forces.extend(std::iter::repeat_n([Complex64::ZERO; 3], count));
                 continue;
             }
             let stiffnesses = subframe.stiffnesses(self.omega_of(point), String::new)?;
             forces.extend((0..count).map(|k| {
-                let deflection = subframe.deflection(k, motion, None);
+                let carrier = base.map(|base| displaced(base, &arms[k]));
+                let deflection = subframe.deflection(k, motion, carrier.as_ref());
                 subframe.force_on_support(k, &stiffnesses[k], &deflection)
             }));
         }
@@ -720,18 +779,26 @@ impl Response {
 impl Derivative {
     /// Phasors of this, of those of a displacement.
     fn of(self, moved: [Complex64; 3], omega: f64) -> [Complex64; 3] {
-        let rate = Complex64::new(0.0, omega);
-        let factor = match self {
-            Self::Displacement => Complex64::ONE,
-            Self::Velocity => rate,
-            Self::Acceleration => rate * rate,
-        };
+        let factor = self.factor(omega);
         // Adding zero makes −0 0.
         moved.map(|phasor| phasor * factor + Complex64::ZERO)
     }
+
+    /// Its phasors over those of a displacement.
+    fn factor(self, omega: f64) -> Complex64 {
+        let rate = Complex64::new(0.0, omega);
+        match self {
+            Self::Displacement => Complex64::ONE,
+            Self::Velocity => rate,
+            Self::Acceleration => rate * rate,
+        }
+    }
 }
 
+mod base;
 mod driven;
+pub use self::base::BaseMotion;
+use self::base::displaced;
 pub use self::driven::ActuatorForces;
 #[cfg(test)]
 mod tests;
