@@ -167,8 +167,9 @@ class VanishingOrders(Tabled):
     equal steps, although 0.3 is not three times 0.1 in binary.
 
     A quantity with no rational relation to the others (an angle that is not rational, the harmonic
-    of another slider-crank) is treated as an independent symbol: where several such symbols remain,
-    they may cancel or not, and the verdict is "undecided"; ``obstacles`` lists the reasons.
+    of another slider-crank) is treated as an independent symbol: where several such symbols remain
+    and their sum is too small for its value to be beyond any error of evaluation, they may cancel
+    or not, and the verdict is "undecided"; ``obstacles`` lists the reasons.
     The bank angle of an arrangement of :func:`crankpin.search_arrangements` is exact too: doubles
     of it stand for the angle at which two sums of one size cancel. ``within_rounding`` is true
     where floating point finds a sum below its rounding error, as in :class:`Balance`.

@@ -506,7 +506,7 @@ class EngineData:
         >>> rods = cp.LinkRods(radius=0.038, length=0.152, angles_deg=[67] * 6)
         >>> force = v12.with_link_rods(rods, master="right").vanishing_orders(range(1, 8)).force
         >>> force.remaining, force.undecided
-        ((3,), (6,))
+        ((3, 6), ())
         """
         if isinstance(rods, links.LinkRods):
             return type(self)(links.with_masters(self._core, self.banks, rods, master))

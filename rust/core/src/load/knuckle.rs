@@ -18,7 +18,7 @@ use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::source::over_angle::{BLOCK, LoadSum, Units};
 use crate::source::{
-    INERTIA, Parts, Scale, Series, Source, Tail, TorqueAmplitudes, UpTo, is_equal,
+    ExactFactor, INERTIA, Parts, Scale, Series, Source, Tail, TorqueAmplitudes, UpTo, is_equal,
 };
 
 /// Most samples of a mean.
@@ -118,6 +118,10 @@ impl Source for KnuckleCoupling {
 
     fn mechanism(&self) -> Option<&DrivenMechanism> {
         Some(&self.driven)
+    }
+
+    fn exact(&self) -> ExactFactor {
+        ExactFactor::Coupling
     }
 
     fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueAmplitudes> {

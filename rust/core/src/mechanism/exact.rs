@@ -77,6 +77,13 @@ pub struct ExactHarmonic {
     pub is_certain: bool,
 }
 
+impl ExactHarmonic {
+    /// Whether there is any.
+    pub(crate) fn exists(self) -> bool {
+        self.crank || self.rest.exists()
+    }
+}
+
 /// How what a harmonic has besides the crank's own changes as the motion is mirrored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rest {

@@ -170,6 +170,8 @@ pub enum ExactFactor {
     One,
     /// Symbols, one for a motion and, in torques, for this key.
     Motion(TorqueKey),
+    /// A symbol for each source, of the orders beside those that its motion's force has.
+    Coupling,
     /// That of the sum of directions in which cylinders fire: of pressure.
     Cycle,
     /// No rational multiple of anything.

@@ -169,7 +169,7 @@ pub fn closed_form(
     let parts = loads.list.iter().zip(weights).zip(levers);
     let parts = parts.map(|((load, weight), lever)| load_part(load, weight, lever));
     let parts = parts.collect::<Result<_>>()?;
-    let no_harmonic = !known.crank && !known.rest.exists();
+    let no_harmonic = !known.exists();
     let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
     let x = forward.plus(&backward_conj, 1)?;

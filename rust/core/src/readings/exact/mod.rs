@@ -148,12 +148,8 @@ impl Levers {
     }
 }
 
-/// In which sums of each order a load with numbers of its own acts: one that is no multiple of masses.
-pub(crate) struct NumberedLoads {
-    acts: Vec<ByQuantity<bool>>,
-    /// What they are, why a sum may be undecided.
-    text: &'static str,
-}
+/// In which sums of each order a load that was given by numbers acts.
+pub(crate) struct NumberedLoads(Vec<ByQuantity<bool>>);
 
 impl NumberedLoads {
     /// Of an engine at some orders.
@@ -165,14 +161,8 @@ impl NumberedLoads {
     ) -> Result<Self> {
         let none = || QUANTITIES.iter().map(|_| false).collect::<ByQuantity<_>>();
         let mut acts: Vec<_> = orders.iter().map(|_| none()).collect();
-        let text = if engine.loads().is_empty() {
-            "masses at knuckles of link rods: their torques have no rational relation to others"
-        } else {
-            "loads that were given by numbers: they cancel with nothing for certain"
-        };
-        let has_knuckles = (0..engine.stations().len()).any(|i| engine.knuckle_mass(i).is_some());
-        if engine.loads().is_empty() && !has_knuckles {
-            return Ok(Self { acts, text });
+        if engine.loads().is_empty() {
+            return Ok(Self(acts));
         }
         let loads = Scene::of(engine, reference)?;
         let is_numbered = |load: &&Load| loads.source(load).exact() == ExactFactor::Unknown;
@@ -188,6 +178,6 @@ impl NumberedLoads {
                 }
             }
         }
-        Ok(Self { acts, text })
+        Ok(Self(acts))
     }
 }

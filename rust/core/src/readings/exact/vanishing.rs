@@ -9,7 +9,8 @@
 //! that is no simple part of a turn (others a simple part of a turn away from it share its symbol), a mass or a place that is no simple part of another, the harmonic of a slider-crank of
 //! other proportions. The sum is then one over these symbols, each times a sum of roots of unity. It
 //! vanishes if each of those does, whatever the symbols are. It remains if just one of them does not
-//! and its symbol is known not to be zero. Otherwise nothing is proved.
+//! and its symbol is known not to be zero, or if its value is beyond any error of its evaluation. Otherwise nothing is
+//! proved.
 //!
 //! One relation of angles that are no parts of a turn is known: the bank angle of Ito and Hattori, at
 //! which two sums of order 1 that are left have one size, decided in integers, and cancel. Doubles of
@@ -46,12 +47,14 @@ use crate::firing::Firing;
 use crate::layout::Strokes;
 use crate::load::{Load, LoadIndex, Scene};
 use crate::mechanism::exact::TorqueKey;
+use crate::numbers::UNIT_RPM;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::index::{List, ListIndex};
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
+use crate::readings::amplitude::SourceAmplitudes;
 use crate::readings::balance::{self, Orders, Request, Vector};
 use crate::readings::quantity::Part;
 use crate::source::{ExactFactor, ForcePart, Source};
@@ -62,6 +65,12 @@ const ROUNDED_ANGLES: f64 = 16.0 * f64::EPSILON;
 
 /// Part of the largest torque of gas beyond which that of an order is no error: it is evaluated to 1e-13.
 const EVALUATED: f64 = 1e-9;
+
+/// Multiples of the bounds of rounding of a sum of terms, and of the sum of their weights as if all harmonics were 1,
+/// beyond which its value is no error: harmonics are evaluated to 1e-14 of themselves, those of link rods to 1e-14 of
+/// the largest.
+const TERMS_BEYOND: f64 = 1e5;
+const WEIGHTS_BEYOND: f64 = 1e4;
 
 /// What is known of a sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,6 +152,12 @@ impl ProofQuantity {
         }
     }
 
+    /// Bounds of the rounding errors of the sums of a wrench.
+    fn bounds(wrench: &Wrench) -> ByQuantity<f64> {
+        let planar = [wrench.force, wrench.moment].map(|vector| [vector.bound; 4]);
+        planar.into_iter().flatten().chain([wrench.torque.bounds[0], 0.0]).collect()
+    }
+
     /// The sums of a wrench, of which the parts of a vector along (about) x and y are rounding up to bounds;
     /// nothing of gas.
     pub(super) fn of_wrench(
@@ -160,7 +175,7 @@ impl ProofQuantity {
 }
 
 /// What vanishes, order by order.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Vanishing {
     /// As asked for.
     pub orders: Vec<Order>,
@@ -189,8 +204,9 @@ impl Vanishing {
         if self.verdicts.iter().any(|verdicts| is_open(&verdicts[ProofQuantity::GasTorque])) {
             self.obstacles.extend(gas.obstacle().map(String::from));
         }
-        if numbered.acts.iter().flatten().any(|acts| *acts) {
-            self.obstacles.push(numbered.text.to_owned());
+        if numbered.0.iter().flatten().any(|acts| *acts) {
+            let given = "loads that were given by numbers: they cancel with nothing for certain";
+            self.obstacles.push(given.to_owned());
         }
     }
 }
@@ -311,13 +327,15 @@ impl Proof {
         view: View,
         cancel: &Cancel,
     ) -> Result<bool> {
-        use Channel::{Force, Gear, One, Torque};
+        use Channel::{Coupling, Force, Gear, One, Torque};
         let of_motion = |motion: MotionIndex| {
             let motion = &self.motions[motion];
             (Arc::clone(&motion.mechanism), motion.own_order(order))
         };
         let ((mechanism, own), weights, is_odd) = match channel {
             One => return Ok(true),
+            // By the value of the whole sum, if at all.
+            Coupling(_) => return Ok(false),
             Force(motion) => (of_motion(motion), None, false),
             Torque(motion, key, is_odd) => (of_motion(motion), Some(vec![(key, 1.0)]), is_odd),
             Gear(gear, is_odd) => {
@@ -491,6 +509,20 @@ pub(crate) fn vanishing_of(
     cancel: &Cancel,
 ) -> Result<Vanishing> {
     check_list(orders)?;
+    let is_torque = |own| matches!(own, &ProofQuantity::Torque | &ProofQuantity::GasTorque);
+    let torque = quantities.iter().any(is_torque);
+    let known = || evaluated(engine, orders, reference_z, torque, cancel);
+    decided(quantities, engine, known, (orders, reference_z, firing), cancel)
+}
+
+/// Verdicts on sums by symbols, and by what floating point finds of them.
+fn decided(
+    quantities: &[ProofQuantity],
+    engine: &Engine,
+    known: impl FnOnce() -> Result<Vec<Evaluated>>,
+    (orders, reference_z, firing): (&[Order], Option<f64>, Option<&Firing>),
+    cancel: &Cancel,
+) -> Result<Vanishing> {
     let proof = Proof::of(engine, reference_z, cancel)?;
     let has_halves = proof.has_half_orders() || firing.is_some() || engine.cycles_in_use() > 0;
     let half = orders.iter().find(|order| order.as_whole().is_none());
@@ -498,15 +530,12 @@ pub(crate) fn vanishing_of(
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
     let gas = GasProof::new(engine, firing, cancel)?;
-    let is_torque = |own| matches!(own, &ProofQuantity::Torque | &ProofQuantity::GasTorque);
-    let torque = quantities.iter().any(is_torque);
-    let (within_rounding, gas_remains) = evaluated(engine, orders, reference_z, torque, cancel)?;
     let numbered = NumberedLoads::new(engine, reference_z, orders, cancel)?;
-    let (orders_listed, verdicts, obstacles) = (orders.to_vec(), Vec::new(), Vec::new());
-    let mut found = Vanishing { orders: orders_listed, verdicts, within_rounding, obstacles };
+    let mut found = Vanishing { orders: orders.to_vec(), ..Vanishing::default() };
     let mut errors: Vec<String> = Vec::new();
-    let known = found.within_rounding.iter_mut().zip(gas_remains).zip(&numbered.acts);
-    for (&order, ((within, gas_remains), numbered)) in orders.iter().zip(known) {
+    let known = known()?.into_iter().zip(&numbered.0);
+    for (&order, (mut value, numbered)) in orders.iter().zip(known) {
+        let mut beyond_errors = None;
         // Neither gas nor half orders, which inertia has of shafts at half speed alone, need them.
         let of_inertia = quantities.iter().any(|&own| own != ProofQuantity::GasTorque);
         let has_order = order.as_whole().is_some() || proof.has_half_orders();
@@ -515,21 +544,36 @@ pub(crate) fn vanishing_of(
         for &quantity in quantities {
             cancel.check()?;
             let proved = match quantity {
-                ProofQuantity::GasTorque => gas.at(order, gas_remains),
+                ProofQuantity::GasTorque => gas.at(order, value.gas_remains),
                 // What was given is no rational, and cancels with nothing for certain.
                 _ if numbered[quantity] => Ok((Verdict::Undecided, Some(false))),
                 _ => proof.verdict(&sums, quantity, order, cancel).map(|verdict| (verdict, None)),
             };
+            if matches!(proved, Err(_) | Ok((Verdict::Undecided, None))) {
+                let beyond = match &beyond_errors {
+                    Some(beyond) => beyond,
+                    None => {
+                        beyond_errors.insert(value.beyond_errors(&proof.loads, order, cancel)?)
+                    }
+                };
+                if beyond[quantity] {
+                    verdicts[quantity] = Verdict::Remains;
+                    continue;
+                }
+            }
             match proved {
                 Ok((verdict, is_rounding)) => {
                     verdicts[quantity] = verdict;
-                    within[quantity] = is_rounding.unwrap_or(within[quantity]);
+                    if let Some(is_rounding) = is_rounding {
+                        value.within_rounding[quantity] = is_rounding;
+                    }
                 }
                 Err(error) if errors.contains(&error.to_string()) => {}
                 Err(error) => errors.push(error.to_string()),
             }
         }
         found.verdicts.push(verdicts);
+        found.within_rounding.push(value.within_rounding);
     }
     found.add_obstacles(&proof, &gas, &numbered);
     found.obstacles.extend(errors);
@@ -603,23 +647,50 @@ impl<'a> ZeroProofs<'a> {
         let sums = self.proof.sums(order);
         let vanishes = |&quantity: &ProofQuantity| {
             let verdict = self.proof.verdict(&sums, quantity, order, self.cancel);
-            !numbered.acts[0][quantity] && verdict == Ok(Verdict::Vanishes)
+            !numbered.0[0][quantity] && verdict == Ok(Verdict::Vanishes)
         };
         self.cancel.check()?;
         Ok(quantities.iter().all(vanishes))
     }
 }
 
-/// What is zero within rounding, at no speed in particular; and at which orders the torque of gas is
-/// beyond any error.
+/// What floating point finds of an order, at no speed in particular.
+struct Evaluated {
+    /// Of inertia, over ω².
+    wrench: Wrench,
+    /// Which sums of it are zero within rounding.
+    within_rounding: ByQuantity<bool>,
+    /// Whether the torque of gas is beyond any error of its evaluation.
+    gas_remains: bool,
+}
+
+impl Evaluated {
+    /// Which sums of inertia are beyond any error of their evaluation.
+    fn beyond_errors(
+        &self,
+        loads: &Scene,
+        order: Order,
+        cancel: &Cancel,
+    ) -> Result<ByQuantity<bool>> {
+        let ones = SourceAmplitudes::ones(&loads.sources, &[order]);
+        let of_weights = ones.wrenches(loads, &loads.list, true, &[order], cancel)?;
+        // Inertia is the first group.
+        let [of_terms, of_weights] = [&self.wrench, &of_weights[0]].map(ProofQuantity::bounds);
+        let sums = ProofQuantity::of_wrench(&self.wrench, |_| 0.0);
+        let bound = of_terms.iter().zip(&of_weights);
+        let bound = bound.map(|(terms, weights)| TERMS_BEYOND * terms + WEIGHTS_BEYOND * weights);
+        Ok(sums.iter().zip(bound).map(|(sum, bound)| sum.norm() > bound).collect())
+    }
+}
+
 fn evaluated(
     engine: &Engine,
     orders: &[Order],
     reference_z: Option<f64>,
     torque: bool,
     cancel: &Cancel,
-) -> Result<(Vec<ByQuantity<bool>>, Vec<bool>)> {
-    let request = Request { rpm: 60.0, reference_z, torque };
+) -> Result<Vec<Evaluated>> {
+    let request = Request { rpm: UNIT_RPM, reference_z, torque };
     let orders = Orders::Given(orders.to_vec());
     let all = balance::balance(engine, &request, &orders, cancel)?;
     let found = all.of_part(Part::INERTIA);
@@ -629,14 +700,16 @@ fn evaluated(
     let of_cycles = of_sources.filter(|(_, source)| source.exact() == ExactFactor::Cycle);
     let torque = |source: &dyn Source| source.scale().torque.unwrap_or(0.0);
     let largest: f64 = of_cycles.map(|(weight, source)| weight.size * torque(&**source)).sum();
-    let zero = |k: usize| {
-        let bound = |vector| found.zero_bound(vector, k);
-        let sums = ProofQuantity::of_wrench(&found.wrenches[k], bound);
-        sums.map_to(|sum| *sum == Complex64::ZERO)
+    let of_order = |k: usize| {
+        let wrench = found.wrenches[k];
+        let sums = ProofQuantity::of_wrench(&wrench, |vector| vector.of(&wrench).bound);
+        Evaluated {
+            wrench,
+            within_rounding: sums.map_to(|sum| *sum == Complex64::ZERO),
+            gas_remains: all.torque(Part::GAS, k).roll.norm() > EVALUATED * largest,
+        }
     };
-    let orders = 0..found.orders.len();
-    let gas = |k| all.torque(Part::GAS, k).roll.norm() > EVALUATED * largest;
-    Ok((orders.clone().map(zero).collect(), orders.map(gas).collect()))
+    Ok((0..found.orders.len()).map(of_order).collect())
 }
 
 #[cfg(test)]

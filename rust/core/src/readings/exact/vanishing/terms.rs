@@ -34,6 +34,8 @@ pub(super) enum Channel {
     Torque(MotionIndex, TorqueKey, bool),
     /// All torque of a running gear; whether its odd part.
     Gear(DrivenCylinderIndex, bool),
+    /// Torque of a source that couples motions.
+    Coupling(SourceIndex),
 }
 
 /// Lists of weights that have no rational relation to each other's.
@@ -130,7 +132,8 @@ impl Proof {
         };
         let planar = weights(&|load| load.weight)?;
         let mut rolls = loads.list.map_to(|_| (0, Ratio::ZERO));
-        for factor in TorqueKey::ALL.map(ExactFactor::Motion) {
+        let of_motions = TorqueKey::ALL.map(ExactFactor::Motion);
+        for factor in of_motions.into_iter().chain([ExactFactor::Coupling]) {
             let is_own = |load: &Load| loads.source(load).exact() == factor;
             let own = weights(&|load| if is_own(load) { load.roll } else { 0.0 })?.of;
             for ((roll, load), own) in rolls.iter_mut().zip(&loads.list).zip(own) {
@@ -268,6 +271,12 @@ impl Proof {
             (Column::Roll, ExactFactor::Motion(key)) => {
                 let channel = |motion, is_odd| Channel::Torque(motion, key, is_odd);
                 self.torque_channels(at, order, view, channel, both(motion))
+            }
+            (Column::Roll, ExactFactor::Coupling) => {
+                let own = self.motions[motion].own_order(order);
+                let has = |n| n == 0 || self.motions[motion].mechanism.exact_force(n).exists();
+                let acts = has(own - 1) || has(own + 1);
+                acts.then_some((Channel::Coupling(harmonic.source), 1)).into_iter().collect()
             }
             (Column::Roll, _) => vec![],
         }
