@@ -193,7 +193,7 @@ def test_double_acting_is_said_and_refused_by_name() -> None:
         with pytest.raises(cp.InputError, match=words):
             engine.with_cycle(cycle, **options)
     grid = cp.CycleMap([100, 200], [0, 1], [[cycle, cycle]] * 2)
-    with pytest.raises(cp.InputError, match="crank ends"):
+    with pytest.raises(cp.InputError, match="crank_end"):
         cp.sweep(engine, rpm=[100.0], load=[0.5], cycle=grid)
     with pytest.raises(cp.InputError, match=r"^clearance.*valves never open"):
         compressor(clearance=0.6)
