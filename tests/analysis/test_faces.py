@@ -38,8 +38,8 @@ def cylinder(draw: np.random.Generator, radius: float = 0.05) -> cp.Cylinder:
 def engine(seed: int) -> cp.Engine:
     """Return an engine of few values: coinciding throws, dead ends, two cranks, side rods."""
     draw = np.random.default_rng(seed)
-    kind = draw.choice(["inline", "u", "side rods"])
-    strokes = 2 if kind == "side rods" else int(draw.choice([2, 4]))
+    kind = draw.choice(["inline", "u", "opposed", "side rods"])
+    strokes = int(draw.choice([2, 4]))
     count = int(draw.integers(1, 4))
     throws = draw.choice([0.0, 90.0, 180.0], count).tolist()
     parts = [cylinder(draw) for _ in range(count)]
@@ -51,6 +51,10 @@ def engine(seed: int) -> cp.Engine:
         bare = cp.Engine.opposed_pistons(
             plain, upper=upper, lead_deg=lead, one_crankshaft=True, **layout
         )
+    elif kind == "opposed":
+        upper = [one.replace(crank_radius=draw.choice([0.05, 0.035])) for one in parts]
+        lead = draw.choice([0.0, 9.0, -20.0])
+        bare = cp.Engine.opposed_pistons(parts, upper=upper, lead_deg=lead, distance=0.6, **layout)
     elif kind == "u":
         ratio = int(draw.choice([1, -1]))
         bare = cp.Engine.u(
@@ -102,9 +106,12 @@ def work(fired: cp.Engine) -> float:
     turns = fired.strokes // 2
     theta = np.linspace(0.0, 2.0 * np.pi * turns, 7200 * turns, endpoint=False)
     area, step, total = np.pi / 4 * 0.1**2, theta[1], 0.0
-    later = (
-        (fired.firing_deg - fired.tdc_deg) % 720.0 > 350.0 if turns == 2 else [False] * len(fired)
-    )
+
+    def beside(least: Any, fires: float) -> Any:  # noqa: ANN401
+        """The angle of a least volume in that turn of the cycle that is next to another angle."""
+        return least + 2.0 * np.pi * np.round((fires - least) / (2.0 * np.pi))
+
+    fires = np.radians(fired.firing_deg)
     for chamber in fired.chambers:
         head = fired.cycles[chamber[0] - 1] if fired.cycles else None
         signs = [1.0 if fired.cylinders[n - 1].side_rods else -1.0 for n in chamber]
@@ -114,7 +121,7 @@ def work(fired: cp.Engine) -> float:
             volume = partial(swept, pistons, tops, [sign * area for sign in signs])
             # That of one piston begins at its top dead centre.
             least = tops[0] if len(chamber) == 1 else least_at(partial(volume, part=0))
-            begins = least + 2.0 * np.pi * bool(later[chamber[0] - 1])
+            begins = beside(least, fires[chamber[0] - 1])
             pressure = head.pressure_at(np.degrees(theta - begins))
             total += float((pressure * volume(theta, 1)).sum() * step)
     for k, end in enumerate(fired.crank_ends or ()):
@@ -123,7 +130,8 @@ def work(fired: cp.Engine) -> float:
             lowest = least_at(partial(swept, [one], [0.0], [1.0], part=0))
             # Beyond a piston on side rods is its head end.
             least, sign = (0.0, -1.0) if one.side_rods else (lowest, 1.0)
-            begins = top + least + 2.0 * np.pi * bool(later[k])
+            # Half a turn after the head end; that of side rods half a turn before its chamber.
+            begins = beside(top + least, fires[k] + sign * np.pi)
             free = sign * (area - np.pi / 4 * fired.rod_diameter[k] ** 2)
             pressure = end.pressure_at(np.degrees(theta - begins))
             total += float((pressure * free * position(one, theta - top)[1]).sum() * step)
