@@ -366,9 +366,9 @@ def test_gas_at_any_bank_angle(open_engine: Open) -> None:
     assert curves.locator("xpath=self::*[contains(@class, 'pressure')]").count() == 7
 
 
-# Torque every two degrees, cubics between: measured 2e-5 of the fluctuation for burning cycles,
-# whose pressure is rounded and linear between half degrees.
-OF_FLUCTUATION = 1e-4
+# Torque every two degrees, cubics between, what bends there apart: measured 3e-5 of the
+# fluctuation, for burning cycles, whose pressure is rounded and linear between half degrees.
+OF_FLUCTUATION = 5e-5
 
 
 def assert_speed_agrees(page: Page, engine: cp.Engine, rpm: float, inertia: float) -> None:
@@ -385,7 +385,7 @@ def assert_speed_agrees(page: Page, engine: cp.Engine, rpm: float, inertia: floa
         assert shown == pytest.approx(expected, abs=OF_FLUCTUATION * span)
 
 
-@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24)])
+@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24), double_acting])
 def test_speed_of_the_crank(open_engine: Open, of: Callable[[], cp.Engine]) -> None:
     engine = of()
     given = cp.flywheel(engine, rpm=3000, irregularity=0.01).inertia
