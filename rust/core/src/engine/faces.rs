@@ -13,7 +13,7 @@
 use std::sync::Arc;
 
 use super::{Engine, Gas};
-use crate::mechanism::cylinder::piston_area;
+use crate::mechanism::cylinder::ring_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -67,7 +67,7 @@ impl Engine {
             cycle: Arc::clone(&gas.cycles[index]),
             index,
             crankcase: gas.crankcase,
-            area: face.sign() * (piston_area(bore) - piston_area(rod_diameter)),
+            area: face.sign() * ring_area(bore, rod_diameter),
             delay,
             phase: self.phase_after(cylinder, delay),
         };
