@@ -14,9 +14,18 @@ if TYPE_CHECKING:
 TESTS = Path(__file__).parent.parent / "tests"
 sys.path.insert(0, str(TESTS))
 
-from rederivation import harmonics_mp, ijesc, ito, kinematics, pressure  # noqa: E402 - from the tests beside us
+from rederivation import faces, harmonics_mp, ijesc, ito, kinematics, pressure  # noqa: E402 - from the tests beside us
 
-__all__ = ["TESTS", "harmonics_mp", "ijesc", "ito", "kinematics", "pressure", "relative_errors"]
+__all__ = [
+    "TESTS",
+    "faces",
+    "harmonics_mp",
+    "ijesc",
+    "ito",
+    "kinematics",
+    "pressure",
+    "relative_errors",
+]
 
 UNDERFLOW = 1e-300
 """Below it doubles lose their last digits."""

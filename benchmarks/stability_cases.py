@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,7 +20,7 @@ import crankpin as cp
 import methods
 import mpmath
 import numpy as np
-from _references import harmonics_mp, ito, kinematics, pressure, relative_errors
+from _references import faces, harmonics_mp, ito, kinematics, pressure, relative_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -387,6 +387,101 @@ def single(plain: bool) -> float:
     return float(relative_errors(found, exact).max())
 
 
+# --- opposed pistons and compressors --------------------------------------------------------------
+
+LEADS = (0, 1e-12, 1e-9, 1e-6, 1e-3, 30, 180 - 1e-3, 180 - 1e-9, 180)
+COMPRESSOR = cp.Cylinder(0.125, 0.625, 180.0, bore=0.3)
+POLYTROPIC = 1.3
+PRESSURES = (1e5, 4e5)
+
+
+def lead_error(leads: Iterable[float], *, plain: bool, relative: bool = False) -> float:
+    """Worst error of orders 1 and 2 of opposed pistons over m·r·ω²; what is zero must be zero.
+
+    Or relative to themselves.
+    """
+    amplitudes = {1: 1.0, 2: abs(complex(CYLINDER.harmonics([2])[0]))}
+    worst = 0.0
+    for lead in leads:
+        engine = cp.Engine.opposed_pistons(
+            CYLINDER, throws_deg=[0], spacing=0.1, distance=0.9, lead_deg=lead
+        )
+        size = first_order(engine, RPM)
+        for order, amplitude in amplitudes.items():
+            with mpmath.workdps(FORTY_DIGITS):
+                turned = mpmath.mpf(lead) * order / 2
+                turned -= 180 * mpmath.nint(turned / 180)
+                exact = 2.0 * amplitude * float(abs(mpmath.sin(mpmath.radians(turned))))
+            if plain:
+                parts = np.abs(
+                    methods.phasor_sum([1.0] * 2, engine.bank_deg, engine.tdc_deg, order)
+                )
+                found = amplitude * float(np.hypot(*parts))
+            else:
+                found = float(engine.balance(RPM, orders=[order]).force.peak[0]) / size
+            error = abs(found - exact) / (exact if relative else 1.0)
+            worst = max(worst, error if exact or not found else math.inf)
+    return worst
+
+
+def unlike_masses(*, plain: bool) -> float:
+    """Error of the force of two opposed throws whose masses are apart by 1e-12, of that force."""
+    masses = (180.0, 180.0 * (1.0 + 1e-12))
+    parts = [COMPRESSOR.replace(reciprocating_mass=mass) for mass in masses]
+    engine = cp.Engine.opposed_throws(parts, throws_deg=[0, 180], spacing=0.32)
+    exact = (masses[1] - masses[0]) * 0.125 * (2 * np.pi * 10) ** 2
+    if plain:
+        weights = [mass * 0.125 for mass in masses]
+        sums = methods.phasor_sum(weights, engine.bank_deg, engine.tdc_deg, 1)
+        found = float(np.hypot(*np.abs(sums))) * (2 * np.pi * 10) ** 2
+    else:
+        found = float(engine.balance(600.0, orders=[1]).force.peak[0])
+    return abs(found / exact - 1.0)
+
+
+def clearance_error(*, plain: bool) -> float:
+    """Worst error of the work of a compressor whose clearance tends to none, of that work."""
+    suction, discharge = PRESSURES
+    ratio, n = discharge / suction, POLYTROPIC
+    theta = np.radians(np.arange(0.0, 360.5, 0.5))
+    part, grows = faces.swept(theta, "head", 0.125, 0.625)
+    worst = 0.0
+    for clearance in (0.1, 1e-6, 1e-12, 0.0):
+        drawn_in = 1.0 - clearance * (ratio ** (1.0 / n) - 1.0)
+        exact = suction * drawn_in * n / (n - 1.0) * (ratio ** ((n - 1.0) / n) - 1.0)
+        if plain:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                pressure = faces.compressed(part, grows, suction, discharge, clearance, n)
+            work = -faces.loop(pressure, part)
+        else:
+            cycle = cp.Cycle.compressor(
+                COMPRESSOR, suction=suction, discharge=discharge, clearance=clearance, n=n
+            )
+            work = -cycle.imep(COMPRESSOR)
+        worst = max(worst, abs(work / exact - 1.0)) if not math.isnan(work) else math.nan
+    return worst
+
+
+def thick_rod(*, plain: bool) -> float:
+    """Worst error of a crank end's mean torque, of that torque, as its rod fills the bore."""
+    bore = 0.3
+    cycle = cp.Cycle.compressor(COMPRESSOR, suction=1e5, discharge=4e5, end="crank")
+    bare = cp.Engine.inline(COMPRESSOR, throws_deg=[0], spacing=0.3, strokes=2)
+    worst = 0.0
+    for rod in (0.06, bore * (1 - 1e-9), bore * (1 - 1e-12), math.nextafter(bore, 0.0), bore):
+        with mpmath.workdps(FORTY_DIGITS):
+            area = float(mpmath.pi / 4 * (mpmath.mpf(bore) ** 2 - mpmath.mpf(rod) ** 2))
+        unit = 0.25 * cycle.imep(COMPRESSOR, end="crank") / (2 * np.pi)
+        if plain:
+            found = (np.pi / 4 * bore**2 - np.pi / 4 * rod**2) * unit
+        else:
+            engine = bare.with_cycle(None, crank_end=cycle, rod_diameter=rod)
+            found = float(engine.balance(100.0, orders=[1]).crank_torque.cycle_mean)
+        error = abs(found / (area * unit) - 1.0) if area else abs(found)
+        worst = max(worst, error)
+    return worst
+
+
 # --- gas torque -----------------------------------------------------------------------------------
 
 FIRED = CYLINDER.replace(bore=0.086)
@@ -679,5 +774,50 @@ CASES = [
         "Σ p·ΔV of 720 samples",
         lambda: motored_work(plain=True),
         lambda: motored_work(plain=False),
+    ),
+    Case(
+        "opposed pistons",
+        "lead to 0° and to 180°: force of orders 1 and 2 over m·r·ω², zeros exact",
+        2e-14,
+        "what is below the bound of the sum's rounding, of a lead of 1e-12°, is zero",
+        "phasors summed in doubles",
+        lambda: lead_error(LEADS, plain=True),
+        lambda: lead_error(LEADS, plain=False),
+    ),
+    Case(
+        "opposed pistons",
+        "a lead of 1e-9°: force of orders 1 and 2",
+        1e-15,
+        "an angle and its sine are good to a unit in the last place each, and the sum to one more",
+        "phasors summed in doubles",
+        lambda: lead_error([1e-9], plain=True, relative=True),
+        lambda: lead_error([1e-9], plain=False, relative=True),
+    ),
+    Case(
+        "opposed throws",
+        "masses apart by 1e-12: the force they leave",
+        1e-15,
+        "throws a half turn apart have phasors 1 and −1, so that masses are subtracted exactly",
+        "phasors summed in doubles",
+        lambda: unlike_masses(plain=True),
+        lambda: unlike_masses(plain=False),
+    ),
+    Case(
+        "compressors",
+        "clearance from 10 % to 1e-12 and none: work",
+        1e-13,
+        "polynomials to 2e-14, and quadrature between the valves' angles",
+        "Σ p·ΔV of 720 samples",
+        lambda: clearance_error(plain=True),
+        lambda: clearance_error(plain=False),
+    ),
+    Case(
+        "compressors",
+        "piston rod to the bore, an ulp less, and as thick: torque of the crank end",
+        1e-13,
+        "the area of a ring is the product of sum and difference of its diameters",
+        "π/4·D² − π/4·d²",
+        lambda: thick_rod(plain=True),
+        lambda: thick_rod(plain=False),
     ),
 ]

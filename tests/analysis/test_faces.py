@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin._core import ATMOSPHERE
+from rederivation import faces
 from support import in_turn
 
 if TYPE_CHECKING:
@@ -36,8 +38,8 @@ def cylinder(draw: np.random.Generator, radius: float = 0.05) -> cp.Cylinder:
 def engine(seed: int) -> cp.Engine:
     """Return an engine of few values: coinciding throws, dead ends, two cranks, side rods."""
     draw = np.random.default_rng(seed)
-    kind = draw.choice(["inline", "u", "side rods"])
-    strokes = 2 if kind == "side rods" else int(draw.choice([2, 4]))
+    kind = draw.choice(["inline", "u", "opposed", "side rods"])
+    strokes = int(draw.choice([2, 4]))
     count = int(draw.integers(1, 4))
     throws = draw.choice([0.0, 90.0, 180.0], count).tolist()
     parts = [cylinder(draw) for _ in range(count)]
@@ -49,6 +51,10 @@ def engine(seed: int) -> cp.Engine:
         bare = cp.Engine.opposed_pistons(
             plain, upper=upper, lead_deg=lead, one_crankshaft=True, **layout
         )
+    elif kind == "opposed":
+        upper = [one.replace(crank_radius=draw.choice([0.05, 0.035])) for one in parts]
+        lead = draw.choice([0.0, 9.0, -20.0])
+        bare = cp.Engine.opposed_pistons(parts, upper=upper, lead_deg=lead, distance=0.6, **layout)
     elif kind == "u":
         ratio = int(draw.choice([1, -1]))
         bare = cp.Engine.u(
@@ -64,8 +70,8 @@ def engine(seed: int) -> cp.Engine:
         pressure = cycles[draw.integers(3)]
         for number in chamber:
             heads[number - 1] = pressure
-    for k, one in enumerate(bare.cylinders):
-        ends[k] = None if one.side_rods else cycles[draw.integers(3)]
+    for k in range(len(bare)):
+        ends[k] = cycles[draw.integers(3)]
     if all(one is None for one in ends):
         ends[0] = cycles[0]
     rods = draw.choice([0.0, 0.03, 0.1], len(bare))
@@ -100,9 +106,12 @@ def work(fired: cp.Engine) -> float:
     turns = fired.strokes // 2
     theta = np.linspace(0.0, 2.0 * np.pi * turns, 7200 * turns, endpoint=False)
     area, step, total = np.pi / 4 * 0.1**2, theta[1], 0.0
-    later = (
-        (fired.firing_deg - fired.tdc_deg) % 720.0 > 350.0 if turns == 2 else [False] * len(fired)
-    )
+
+    def beside(least: Any, fires: float) -> Any:  # noqa: ANN401
+        """The angle of a least volume in that turn of the cycle that is next to another angle."""
+        return least + 2.0 * np.pi * np.round((fires - least) / (2.0 * np.pi))
+
+    fires = np.radians(fired.firing_deg)
     for chamber in fired.chambers:
         head = fired.cycles[chamber[0] - 1] if fired.cycles else None
         signs = [1.0 if fired.cylinders[n - 1].side_rods else -1.0 for n in chamber]
@@ -112,18 +121,99 @@ def work(fired: cp.Engine) -> float:
             volume = partial(swept, pistons, tops, [sign * area for sign in signs])
             # That of one piston begins at its top dead centre.
             least = tops[0] if len(chamber) == 1 else least_at(partial(volume, part=0))
-            begins = least + 2.0 * np.pi * bool(later[chamber[0] - 1])
+            begins = beside(least, fires[chamber[0] - 1])
             pressure = head.pressure_at(np.degrees(theta - begins))
             total += float((pressure * volume(theta, 1)).sum() * step)
     for k, end in enumerate(fired.crank_ends or ()):
         if end is not None:
             one, top = fired.cylinders[k], np.radians(fired.tdc_deg[k])
             lowest = least_at(partial(swept, [one], [0.0], [1.0], part=0))
-            begins = top + lowest + 2.0 * np.pi * bool(later[k])
-            free = area - np.pi / 4 * fired.rod_diameter[k] ** 2
+            # Beyond a piston on side rods is its head end.
+            least, sign = (0.0, -1.0) if one.side_rods else (lowest, 1.0)
+            # Half a turn after the head end; that of side rods half a turn before its chamber.
+            begins = beside(top + least, fires[k] + sign * np.pi)
+            free = sign * (area - np.pi / 4 * fired.rod_diameter[k] ** 2)
             pressure = end.pressure_at(np.degrees(theta - begins))
             total += float((pressure * free * position(one, theta - top)[1]).sum() * step)
     return total
+
+
+def two_chambers(seed: int) -> tuple[cp.Engine, dict[str, Any]]:
+    """Return opposed pistons on one crankshaft that pump on their outer sides, and figures."""
+    draw = np.random.default_rng(seed)
+    figures = {
+        "lower": (0.05, float(draw.choice([0.16, 0.2])), float(draw.choice([0.0, 0.006]))),
+        "upper": (float(draw.choice([0.05, 0.035])), 0.25, 0.0),
+        "lead": float(draw.choice([0.0, 9.0, -20.0])),
+        "rods": draw.choice([0.0, 0.03, 0.1], 2).tolist(),
+        "masses": (1.0, float(draw.choice([1.0, 1.4]))),
+        "crankcase": float(draw.choice([ATMOSPHERE, 1.3e5])),
+        "pumps": draw.permutation([0, 1]).tolist(),
+    }
+    lower, upper = (
+        cp.Cylinder(r, rod, mass, pin_offset=e, bore=0.1)
+        for (r, rod, e), mass in zip(
+            (figures["lower"], figures["upper"]), figures["masses"], strict=True
+        )
+    )
+    bare = cp.Engine.opposed_pistons(
+        lower, upper=upper, throws_deg=[0], spacing=0.12, strokes=2,
+        lead_deg=figures["lead"], one_crankshaft=True,
+    )  # fmt: skip
+    pumps = [(*SMOOTH[2], None)[k] for k in figures["pumps"]]
+    return bare.with_cycle(
+        SMOOTH[2][0], crankcase=figures["crankcase"], crank_end=pumps, rod_diameter=figures["rods"]
+    ), figures
+
+
+@in_turn("seed", list(range(24)))
+def test_a_piston_between_two_chambers_is_a_free_body(seed: int) -> None:
+    """Side rods and a crankcase that is a pump: forces, torque and loads by rods in balance."""
+    engine, figures = two_chambers(seed)
+    degrees = np.linspace(0.0, 360.0, 721)
+    theta, rpm = np.radians(degrees), 900.0
+    square = (2.0 * np.pi * rpm / 60.0) ** 2
+    tops, kinds = np.radians(engine.tdc_deg), ("lower", "upper")
+    signs = (-1.0, 1.0)  # the chamber shrinks as the lower piston rises, and as the upper one falls
+
+    def volume(at: Any) -> Any:  # noqa: ANN401
+        each = zip(signs, tops, kinds, strict=True)
+        return sum(sign * faces.place(at - top, *figures[kind]) for sign, top, kind in each)
+
+    shared = SMOOTH[2][0].pressure_at(np.degrees(theta - least_at(volume)))
+    area, total = np.pi / 4 * 0.1**2, np.zeros(theta.shape)
+    loads, rods = cp.bearing_loads(engine, rpm, degrees), cp.rod_loads(engine, rpm, degrees)
+    largest = float(np.abs(loads.crankpin).max())
+    # Where a volume is least to 1e-8, and pressure linear over half a degree.
+    within = 1e-6 * largest
+    for k, (kind, mass) in enumerate(zip(kinds, figures["masses"], strict=True)):
+        own, lengths = theta - tops[k], figures[kind]
+        # A crank end begins where the piston is lowest, the head end of side rods at TDC.
+        begins = least_at(partial(faces.place, r=lengths[0], rod=lengths[1], e=lengths[2]))
+        pump = SMOOTH[2][figures["pumps"][k]].pressure_at(
+            np.degrees(own - (begins if kind == "lower" else 0.0))
+        )
+        through = np.pi / 4 * figures["rods"][k] ** 2
+        beyond = pump * (area - through) + figures["crankcase"] * through
+        gas = shared * area - beyond if kind == "lower" else beyond - shared * area
+        towards = gas + mass * square * faces.bend(own, *lengths)
+        pin = faces.on_crankpin(own, towards, *lengths)
+        # Along an upright bore is y, a quarter turn ahead of it −x.
+        expected = np.stack([-pin[:, 1], pin[:, 0]], axis=-1)
+        np.testing.assert_allclose(loads.crankpin[k], expected, atol=within)
+        np.testing.assert_allclose(rods.gas_load[k], gas, atol=within)
+        np.testing.assert_allclose(rods.rod_load[k], towards, atol=within)
+        total += faces.turning(own, faces.on_crankpin(own, gas, *lengths), lengths[0])
+    wave = engine.waveform(rpm, theta_deg=degrees).read("crank_torque.gas")
+    np.testing.assert_allclose(wave, total, atol=0.05 * within)
+    mean = float(np.trapezoid(total, theta) / (2.0 * np.pi))
+    assert engine.balance(rpm, orders=[1]).crank_torque.cycle_mean == pytest.approx(
+        mean, abs=0.05 * within
+    )
+    torque = engine.balance(rpm, orders=[1, 2]).crank_torque
+    for order in (1, 2):
+        phasor = np.trapezoid(total * np.exp(-1j * order * theta), theta) / np.pi
+        assert torque[order].gas.peak == pytest.approx(abs(phasor), abs=0.05 * within)
 
 
 SEEDS = list(range(40))

@@ -433,3 +433,33 @@ def test_a_record_of_an_oscilloscope_is_read_by_roles(
     ):
         assert main(line.split()) == 2, line
         assert message in capsys.readouterr().err
+
+
+def test_a_preset_that_turns_slowly_has_its_own_speed_unless_one_is_typed(
+    capsys: CAPTURE, tmp_path: Path
+) -> None:
+    compressor = cp.Engine.preset("compressor-4")
+    plain = printed(capsys, "rod-load compressor-4")
+    assert str(cp.rod_loads(compressor, 600).table) in plain
+    assert "Gas: Compressor; crank ends: Compressor, crank end" in plain
+    file = tmp_path / "compressor.toml"
+    compressor.save(file)
+    for typed in ("compressor-4 --rpm 3000", "compressor-4 --rp=3000", f"{file}"):
+        assert str(cp.rod_loads(compressor, 3000).table) in printed(capsys, f"rod-load {typed}")
+    assert printed(capsys, "balance marine-5").startswith(
+        "Marine two-stroke, 5 cylinders at 210 rpm"
+    )
+    assert " at 3000 rpm" in printed(capsys, "balance i4")
+
+
+def test_new_keeps_the_ends_of_a_compressor(capsys: CAPTURE) -> None:
+    made = cp.Engine.from_toml(printed(capsys, "new compressor-4 --discharge 6bar --suction 1bar"))
+    ends = [
+        cp.Cycle.compressor(made.cylinders[0], suction=1e5, discharge=6e5, end=end)
+        for end in ("head", "crank")
+    ]
+    assert (made.cycles, made.crank_ends) == ((ends[0],) * 4, (ends[1],) * 4)
+    assert made.rod_diameter.tolist() == [0.06] * 4
+    line = "new opposed-piston-3 --discharge 4bar"
+    assert main(line.split()) == 2
+    assert "--discharge = 4bar: cycles of compressors" in capsys.readouterr().err

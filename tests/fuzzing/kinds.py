@@ -25,6 +25,7 @@ from fuzzing.sound import CYCLE, JSON, TOML, two_stroke
 CYLINDER = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
 ENGINE = cp.Engine.preset("v6-60", cylinder=CYLINDER).with_cycle(CYCLE)
 """The engine of all calls: fired and of two banks, so that every analysis is defined for it."""
+DOUBLE_ACTING = ENGINE.with_cycle(CYCLE, double_acting=True)
 MOUNTS = (
     cp.Mount("front", (0.0, -0.1, -0.3), 1e5, damping=100.0),
     cp.Mount("right", (0.3, -0.1, 0.4), (2e5, 1e5, 1e5), tilt_deg=130, loss_factor=0.1),
@@ -217,7 +218,13 @@ KINDS: dict[str, list[Any]] = {
     "compression_ratio": [10.0],
     "compression_exponent": [1.3],
     "clearance": [0.1],
-    "crank_end": [CYCLE],
+    "crank_end": [
+        CYCLE,
+        *(
+            Beside(MAP, {of: DOUBLE_ACTING, "cycle": MAP, "load": 1.0})
+            for of in ("engine", "engines")
+        ),
+    ],
     "crankcase": [9e4, Beside(9e4, {"cycle": MAP, "load": 1.0})],
     "cutoff_ratio": [1.5],
     "crosshead_mass": [20.0],

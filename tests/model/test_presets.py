@@ -17,7 +17,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.model import presets as presets_module
-from rederivation import crossplane, ebook, ijesc
+from rederivation import crossplane, ebook, faces, ijesc
 from support import DATA, in_turn
 from support.built_engines import EVEN, UNEVEN
 
@@ -324,6 +324,41 @@ def test_what_cancels_is_exactly_zero(
         assert not engine.balance(RPM, orders=force_orders).force.any()
     if moment_orders:
         assert not engine.balance(RPM, orders=moment_orders).moment.any()
+
+
+def test_the_compressor_has_the_work_and_rod_loads_of_its_stated_figures() -> None:
+    engine, rpm, n = cp.Engine.preset("compressor-4"), 600.0, 1.3
+    assert presets_module.usual_speed("compressor-4", 3000.0) == rpm
+    area, rod = np.pi / 4 * 0.3**2, np.pi / 4 * 0.06**2
+    each = n / (n - 1.0) * (4.0 ** ((n - 1.0) / n) - 1.0) * 1e5 * 0.25
+    drawn_in = [1.0 - clearance * (4.0 ** (1.0 / n) - 1.0) for clearance in (0.12, 0.15)]
+    work = each * (area * drawn_in[0] + (area - rod) * drawn_in[1])
+    mean = engine.balance(rpm, orders=[1]).crank_torque.cycle_mean
+    assert mean == pytest.approx(-4.0 * work / (2.0 * np.pi), rel=1e-10)  # of cycles within 1e-10
+    degrees = np.arange(3.0, 360.0, 7.0)  # where the piston turns a volume is rounded
+    theta = np.radians(degrees)
+    ends = []
+    for end, clearance in (("head", 0.12), ("crank", 0.15)):
+        part, grows = faces.swept(theta, end, 0.125, 0.625)
+        ends.append(faces.compressed(part, grows, 1e5, 4e5, clearance, n))
+    gas = faces.gas_force(ends[0], ends[1], 101_325.0, 0.3, 0.06)
+    inertia = 200.0 * (2.0 * np.pi * rpm / 60.0) ** 2 * faces.bend(theta, 0.125, 0.625)
+    loads = cp.rod_loads(engine, rpm, degrees)
+    for k, tdc in enumerate(engine.tdc_deg):
+        load = cp.rod_loads(engine, rpm, degrees + tdc).rod_load[k]
+        np.testing.assert_allclose(load, gas + inertia, atol=1e-9 * np.abs(inertia).max())
+    assert loads.loads_counted == "gas: Compressor; crank ends: Compressor, crank end"
+
+
+def test_a_compressor_of_other_parts_has_cycles_of_their_motion() -> None:
+    other = cp.Cylinder(0.05, 0.2, 9.0, bore=0.1)
+    engine = cp.Engine.preset("compressor-4", cylinder=other)
+    figures: dict[str, Any] = {"suction": 1e5, "discharge": 4e5, "n": 1.3}
+    assert engine.cycles == (cp.Cycle.compressor(other, clearance=0.12, **figures),) * 4
+    crank = cp.Cycle.compressor(other, clearance=0.15, **figures, end="crank")
+    assert engine.crank_ends == (crank,) * 4
+    np.testing.assert_allclose(engine.rod_diameter, 0.02, rtol=1e-15)
+    assert not cp.Engine.preset("compressor-4", cylinder=other.replace(bore=None)).fired
 
 
 @pytest.mark.parametrize(

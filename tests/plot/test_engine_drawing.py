@@ -142,6 +142,24 @@ def test_pistons_on_crossheads_stay_in_their_cylinders(engine: cp.Engine) -> Non
     assert len(rods) == len(engine)
 
 
+def test_a_pump_above_side_rods_has_a_head_beyond_its_piston() -> None:
+    def heads(engine: cp.Engine) -> set[tuple[float, float]]:
+        lines = [line.get_xydata() for line in engine.plot(kind="section").lines]
+        across = [line for line in lines if len(line) == 2 and line[0, 1] == line[1, 1]]
+        return {(float(line[0, 1]), float(abs(line[0, 0]))) for line in across}
+
+    cycle = cp.Cycle.example("diesel", strokes=2)
+    above, below = ([one.side_rods != lower for one in SIDE_RODS.cylinders] for lower in (0, 1))
+    plain = SIDE_RODS.with_cycle(cycle)
+    added = [
+        heads(plain.with_cycle(cycle, double_acting=flags)) - heads(plain)
+        for flags in (above, below)
+    ]
+    assert [len(each) for each in added] == [1, 1]
+    (head, _), (foot, _) = (each.pop() for each in added)
+    assert foot < head
+
+
 def test_crank_ends_are_closed_and_side_rods_open() -> None:
     for engine, corners in ((DOUBLE_ACTING, {5}), (SIDE_RODS, {2})):
         walls = [

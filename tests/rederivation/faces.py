@@ -68,6 +68,24 @@ def gas_force(
     return np.asarray(head * area - crank * (area - through) - atmosphere * through)
 
 
+def on_crankpin(theta: Reals, towards: Reals, r: float, rod: float, e: float = 0.0) -> Reals:
+    """Force on the crankpin along the bore and a quarter turn ahead, of one on the piston.
+
+    The massless rod hands on what drives the piston towards the crank, along itself; the wall has
+    the rest. The piston is at (s, e), the crankpin at r·(cos θ, sin θ).
+    """
+    pin = r * np.exp(1j * theta)
+    along = pin - (place(theta, r, rod, e) + 1j * e)
+    along = along / np.abs(along)
+    force = towards / -along.real * along
+    return np.stack([force.real, force.imag], axis=-1)
+
+
+def turning(theta: Reals, force: Reals, r: float) -> Reals:
+    """Torque of a force on the crankpin about the crank."""
+    return np.asarray(r * (np.cos(theta) * force[..., 1] - np.sin(theta) * force[..., 0]))
+
+
 def loop(pressure: Reals, volume: Reals) -> float:
     """∮ p dV of a closed curve by the trapezoidal rule."""
     p, v = (np.append(of, of[0]) for of in (pressure, volume))

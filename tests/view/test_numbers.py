@@ -289,7 +289,9 @@ def assert_gas_agrees(page: Page, engine: cp.Engine, angle: float) -> None:
     assert found["torque"] == found["gas"] + found["inertia"]
     of_faces = [*zip(engine.cycles, engine.firing_deg, strict=True)]
     if engine.crank_ends is not None:  # without pin offset lowest half a turn later
-        of_faces += zip(engine.crank_ends, engine.firing_deg + 180.0, strict=True)
+        above = np.array([one.side_rods for one in engine.cylinders])
+        begins = engine.tdc_deg + np.where(above, 0.0, 180.0)  # of two-strokes
+        of_faces += zip(engine.crank_ends, begins, strict=True)
     for (cycle, fires), shown in zip(of_faces, found["pressures"], strict=True):
         if cycle is None:
             assert shown is None
@@ -321,7 +323,24 @@ def double_acting() -> cp.Engine:
     )
 
 
-@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24), double_acting])
+def pumping() -> cp.Engine:
+    """Return opposed pistons on one crankshaft, the crankcase and the upper head ends pumps."""
+    lower, upper = cp.Cylinder(0.05, 0.16, 2.0, bore=0.1), cp.Cylinder(0.04, 0.3, 2.5, bore=0.1)
+    bare = cp.Engine.opposed_pistons(
+        lower, upper=upper, throws_deg=[0], spacing=0.1, lead_deg=8, one_crankshaft=True
+    )
+    pumps = [
+        cp.Cycle.compressor(lower, discharge=1.4e5, clearance=0.4, end="crank"),
+        cp.Cycle.compressor(upper, discharge=1.4e5, clearance=0.4),
+    ]
+    return bare.with_cycle(
+        cp.Cycle.example("diesel", strokes=2), crank_end=pumps, rod_diameter=[0, 0.04]
+    )
+
+
+@pytest.mark.parametrize(
+    "of", [fired, two_stroke, partial(fired_engine, 24), double_acting, pumping]
+)
 def test_gas_at_any_angle(open_engine: Open, of: Callable[[], cp.Engine]) -> None:
     engine = of()
     page = open_engine(engine)
@@ -347,9 +366,9 @@ def test_gas_at_any_bank_angle(open_engine: Open) -> None:
     assert curves.locator("xpath=self::*[contains(@class, 'pressure')]").count() == 7
 
 
-# Torque every two degrees, cubics between: measured 2e-5 of the fluctuation for burning cycles,
-# whose pressure is rounded and linear between half degrees.
-OF_FLUCTUATION = 1e-4
+# Torque every two degrees, cubics between, what bends there apart: measured 3e-5 of the
+# fluctuation, for burning cycles, whose pressure is rounded and linear between half degrees.
+OF_FLUCTUATION = 5e-5
 
 
 def assert_speed_agrees(page: Page, engine: cp.Engine, rpm: float, inertia: float) -> None:
@@ -366,7 +385,7 @@ def assert_speed_agrees(page: Page, engine: cp.Engine, rpm: float, inertia: floa
         assert shown == pytest.approx(expected, abs=OF_FLUCTUATION * span)
 
 
-@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24)])
+@pytest.mark.parametrize("of", [fired, two_stroke, partial(fired_engine, 24), double_acting])
 def test_speed_of_the_crank(open_engine: Open, of: Callable[[], cp.Engine]) -> None:
     engine = of()
     given = cp.flywheel(engine, rpm=3000, irregularity=0.01).inertia

@@ -42,6 +42,7 @@ def operating_map(
     rpm: ArrayLike,
     *,
     cycle: CycleMap | Sequence[CycleMap | None] | None = None,
+    crank_end: CycleMap | Sequence[CycleMap | None] | None = None,
     load: ArrayLike | None = None,
     inertia: float | None = None,
     crankcase: float | None = None,
@@ -57,6 +58,8 @@ def operating_map(
     cycle : CycleMap or sequence of CycleMap, optional
         Cycles over speed and load, of all cylinders or of each, as of :func:`sweep`; by default the
         engine's own pressure at every speed.
+    crank_end : CycleMap or sequence of CycleMap or None, optional
+        The same of the crank ends that the engine has.
     load : float or array_like, shape (n_load,), optional
         Loads within ``cycle``.
     inertia : float, optional
@@ -101,10 +104,10 @@ def operating_map(
     if not len(speeds):
         raise inputs.rejected("rpm", rpm, "give a crank speed, or several")
     if cycle is None:
-        inputs.only_with("cycle", load=load, crankcase=crankcase)
+        inputs.only_with("cycle", crank_end=crank_end, load=load, crankcase=crankcase)
         gas, points = None, np.zeros(1)
     else:
-        gas = GasMap.checked(cycle, [engine], crankcase)
+        gas = GasMap.checked(cycle, crank_end, [engine], crankcase)
         gas.places(None if load is None else inputs.vector("load", load))
         points = inputs.vector("load", load).copy()  # type: ignore[arg-type] # checked before
         if not len(points):

@@ -16,7 +16,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, units
 from crankpin._support.parameters import parameter
-from crankpin.cli.options import rejected
+from crankpin.cli.options import OPTIONS, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.engine import Engine
 from crankpin.model.loads import PeriodicLoad, of_rows
@@ -81,11 +81,22 @@ class Given:
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
                 raise rejected(name, labels.one_line(text), "has a NUL byte")
+        if self._typed.get("rpm") == OPTIONS["--rpm"]["default"] and not self._has("--rpm"):
+            (first, *_) = self._typed.get("names") or [self._typed.get("name") or ""]
+            (preset, *_) = presets.family(first)
+            if preset in presets.Presets():
+                usual = presets.usual_speed(preset, float(self._typed["rpm"]))
+                self._typed["rpm"] = f"{usual:g}"
         self.said = list[str]()
         """Notices of values that were read differently from their spelling."""
         self._setting = units.read(self._typed.get("units") or "", "--units")
         self.written: units.Setting = {}
         """Units that numbers were typed with, the first of each kind."""
+
+    def _has(self, flag: str) -> bool:
+        """Return whether an option is typed, in full or shortened."""
+        words = (word.partition("=")[0] for word in self.typed)
+        return any(len(word) > 2 and flag.startswith(word) for word in words)
 
     def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
         """Return what was typed."""

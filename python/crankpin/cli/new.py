@@ -195,7 +195,8 @@ def _refused(typed: argparse.Namespace) -> set[str]:
         refused.add("--dummy")
     if typed.kind not in BUILDERS and len(base.arguments.get("throws_deg", ())) == 1:
         refused.add("--spacing")  # of one throw
-    if "rule" in base.arguments:  # of four-strokes
+    # Of four-strokes, and of chambers between unlike pistons.
+    if {"rule", "one_crankshaft"} & base.arguments.keys():
         refused |= {option.label for option in COMPRESSOR_OPTIONS}
     return refused
 
@@ -214,6 +215,8 @@ def _flags(base: presets.Layout) -> dict[str, str]:
 def _names(base: presets.Layout) -> set[str]:
     """Return the arguments that the builder of a layout takes."""
     names = {*_parameters(base)}
+    if base.cycle:  # of a compressor, with one in each turn
+        names -= {"strokes"}
     if "places" in base.arguments:  # of a preset of lists, whose angles go together
         names = {"spacing", "firing_order", "strokes"}
     if "rule" in base.arguments:  # by which the intervals follow from the order
@@ -347,12 +350,18 @@ def _new(call: Given) -> str:
 
 def _compressing(call: Given, engine: Engine) -> Engine:
     """Return an engine with the cycle of a compressor, if one is given, at one end or at both."""
-    figures, rod = call.keywords(COMPRESSOR), call.optional("--rod-diameter", "m")
+    figures = call.keywords(COMPRESSOR)
+    rod: Any = call.optional("--rod-diameter", "m")
     double = rod is not None or bool(call.text("--double-acting"))
     if "discharge" not in figures:
         if figures or double:
             raise inputs.faulty("--discharge", "is left out", "the cycle of a compressor needs it")
         return engine
+    if any(one.side_rods for one in engine.cylinders):
+        hint = "cycles of compressors are of one piston's motion; leave it out with one crankshaft"
+        raise rejected("--discharge", call.text("--discharge"), hint)
+    if engine.crank_ends is not None:  # of a preset
+        double, rod = True, engine.rod_diameter if rod is None else rod
     ends: list[Literal["head", "crank"]] = ["head", "crank"] if double else ["head"]
     cycles = {
         one: [COMPRESSOR(one, end=end, **figures) for end in ends]

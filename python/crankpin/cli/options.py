@@ -78,7 +78,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "grows from that speed on by its square; rpm=1000/2000 force=2:8/9 is a table); once for "
         "each",
     },
-    "--rpm": {"default": "3000", "help": "crank speed (default: %(default)s)"},
+    "--rpm": {
+        "default": "3000",
+        "help": "crank speed (default: %(default)s, of a preset that turns slowly its own)",
+    },
     "--by": {
         "metavar": "OBJECTIVE,…",
         "default": "total.moment.peak",

@@ -225,7 +225,10 @@ class EngineData:
 
     @property
     def crank_ends(self) -> tuple[Cycle | None, ...] | None:
-        """Pressure at the crank end of each cylinder, below its piston; None without any."""
+        """Pressure at the crank end of each cylinder, of one on side rods at the head end.
+
+        None without any.
+        """
         ends = self._core.crank_ends
         if ends is None:
             return None
@@ -587,7 +590,9 @@ class EngineData:
         Below a piston acts the pressure of the crankcase, unless its crank end has a cycle too. The
         force on a piston is then ``p_head·A - p_crank·(A - A_rod) - p_crankcase·A_rod``, of
         absolute pressures. The cycle of a crank end counts angles from where the piston is lowest;
-        in a four-stroke it fires half a turn after the head end.
+        in a four-stroke it fires half a turn after the head end. Of a piston on side rods, whose
+        inner face is at the chamber of ``cycle``, the other end is the head end, which counts from
+        top dead centre and through which the piston rod goes.
         Firing orders and intervals are those of head ends alone.
 
         Parameters
@@ -602,8 +607,9 @@ class EngineData:
         double_acting : bool or sequence of bool, default False
             Whether the cycle acts at the crank end too, in all cylinders or each.
         crank_end : Cycle or sequence of Cycle or None, optional
-            In place of ``double_acting``: pressure at the crank ends, as that of a compressor with
-            ``end="crank"`` or below the pistons of a two-stroke that pump its air.
+            In place of ``double_acting``: pressure at the crank ends, of pistons on side rods at
+            the head ends, as that of a compressor with ``end="crank"`` or below the pistons of a
+            two-stroke that pump its air.
         rod_diameter : array_like, optional
             Diameter of the piston rod through the crank end, m, of all cylinders or each; by
             default 0.

@@ -13,13 +13,14 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, tables
 from crankpin._support.record import AbsentItemError
+from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 from crankpin.model.links import LinkRods
@@ -120,9 +121,9 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     """Return the engine of this name; see :meth:`Engine.preset`.
 
     Another cylinder replaces what :class:`Cylinder` describes and no more: the crank is kept, and
-    the rotating mass unless the cylinder has a rod, whose big end replaces it. Where the layout
-    offsets its bores (VR and W engines) each keeps its offset in metres, and the given pin offset
-    is added to it.
+    the rotating mass unless the cylinder has a rod, whose big end replaces it. A compressor has
+    cycles of the cylinder's motion, and none without a bore. Where the layout offsets its bores
+    (VR and W engines) each keeps its offset in metres, and the given pin offset is added to it.
     """
     if name not in Presets():
         if not isinstance(name, str):
@@ -146,6 +147,8 @@ class Layout(NamedTuple):
     """Moving parts of the preset, a nominal half litre if its source has none."""
     spacing: float
     """Distance between neighbouring throws, m."""
+    cycle: Mapping[str, Any]
+    """Cycle of a compressor's two ends as in ``presets.toml``; empty of an engine."""
 
     def build(
         self,
@@ -183,17 +186,37 @@ class Layout(NamedTuple):
         if self.builder != "from_lists":
             arguments["spacing"] = spacing
         engine: Engine = getattr(Engine, self.builder)(cylinder, **arguments)
-        return engine
+        return self._compressing(engine) if self.cycle else engine
+
+    def _compressing(self, engine: Engine) -> Engine:
+        """Return a compressor with its cycles, if its bores are known."""
+        bores = [one.bore for one in engine.cylinders if one.bore is not None]
+        if len(bores) < len(engine):
+            return engine
+        figures = dict(self.cycle)
+        clearances, rod = figures.pop("clearance"), figures.pop("rod_diameter")
+
+        def at(end: Literal["head", "crank"], clearance: float) -> list[Cycle]:
+            return [
+                Cycle.compressor(one, end=end, clearance=clearance, **figures)
+                for one in engine.cylinders
+            ]
+
+        rods = [_core.product(rod, bore) for bore in bores]
+        head, crank = at("head", clearances[0]), at("crank", clearances[1])
+        return engine.with_cycle(head, crank_end=crank, rod_diameter=rods)
 
 
 def layout(name: str = "single") -> Layout:
     """Return the layout of a preset."""
     entry = _data()["engines"][name]
-    ((builder, arguments),) = (item for item in entry.items() if isinstance(item[1], dict))
+    ((builder, arguments),) = (
+        (key, value) for key, value in entry.items() if isinstance(value, dict) and key != "cycle"
+    )
     common = {key: entry[key] for key in ("source", "firing_order", "strokes") if key in entry}
     parts = Cylinder(**{key: value for key, value in _parts(name).items() if key != "rpm"})
     arguments = {"name": entry["title"]} | common | arguments
-    return Layout(builder, arguments, parts, entry.get("spacing", 0.1))
+    return Layout(builder, arguments, parts, entry.get("spacing", 0.1), entry.get("cycle", {}))
 
 
 def usual_speed(name: str, rpm: float) -> float:

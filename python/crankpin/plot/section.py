@@ -78,6 +78,8 @@ class PistonRods(NamedTuple):
     """Whether a cylinder has no head, as its piston faces another."""
     is_closed: NDArray[np.bool_]
     """Whether it has a head at the crank end."""
+    has_head: NDArray[np.bool_]
+    """Whether one on side rods has a head beyond its piston."""
 
 
 def piston_rods(engine: Engine, at: Geometry, bores: NDArray[np.float64]) -> PistonRods:
@@ -111,7 +113,8 @@ def piston_rods(engine: Engine, at: Geometry, bores: NDArray[np.float64]) -> Pis
         lengths[m] = low[m] + (CROWN + GAP) * bores[m] - at.lowest[m]
         high[m] = at.highest[m] + lengths[m] + (SKIRT + GAP) * bores[m]
         beams[m] = high[m] + GAP * bores[m] - at.lowest[m]
-    return PistonRods(lengths, beams, low, high, side_rods, is_open, is_closed)
+    has_head = side_rods & double
+    return PistonRods(lengths, beams, low, high, side_rods, is_open, is_closed, has_head)
 
 
 def _sharing(engine: Engine) -> Iterator[tuple[int, int]]:
@@ -163,8 +166,10 @@ def _walls(
         outline = np.append(corners, corners[0]) if rods.is_closed[k] else corners
         walls = corners.reshape(2, 2).T if rods.is_open[k] else outline
         ax.plot(walls.real, walls.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
-        if rods.is_open[k] and rods.is_closed[k]:  # towards the crank alone
-            ax.plot(corners[[0, 3]].real, corners[[0, 3]].imag, color=ink.line, linewidth=1.2)
+        heads = [rods.is_open[k] and rods.is_closed[k], rods.has_head[k]]
+        for head, present in zip((corners[[0, 3]], corners[[1, 2]]), heads, strict=True):
+            if present:  # at one end alone
+                ax.plot(head.real, head.imag, color=ink.line, linewidth=1.2)
         axis = at.foot[k] + np.array([0.0, rods.high[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
         if rods.is_open[k]:

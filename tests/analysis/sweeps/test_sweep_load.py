@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
 import numpy as np
@@ -184,6 +184,82 @@ def test_a_map_of_one_cycle_is_that_cycle() -> None:
     same = cp.sweep(fired, rpm=2000, orders=[2, 4])
     assert (s.torque.phasor == same.torque.phasor).all()
     assert s.torque.cycle_mean == same.torque.cycle_mean
+
+
+ENDS: dict[Literal["head", "crank"], tuple[float, float]] = {
+    "head": (3e5, 5e5),
+    "crank": (0.0, 5e5),
+}
+"""End of a cylinder → discharge pressures at two loads, none where it is unloaded."""
+
+
+def double_acting() -> tuple[cp.Engine, list[list[cp.Cycle]], list[list[cp.Cycle]]]:
+    """Return a compressor, and cycles of its ends; the crank end is unloaded at load 0."""
+    cylinder = cp.Cylinder(0.1, 0.4, 60.0, pin_offset=0.01, bore=0.3)
+    bare = cp.Engine.opposed_throws(cylinder, throws_deg=[0, 180, 90], spacing=0.3)
+    head, crank = (
+        [
+            [
+                cp.Cycle.compressor(
+                    cylinder, discharge=high + 100.0 * rpm if high else None, end=end
+                )
+                for high in pressures
+            ]
+            for rpm in (300.0, 600.0)
+        ]
+        for end, pressures in ENDS.items()
+    )
+    return bare, head, crank
+
+
+def test_maps_of_both_ends_are_the_cycles_between_theirs() -> None:
+    """Torque is linear in pressure: between points it is that of their mixture."""
+    bare, head, crank = double_acting()
+    ends = [crank[0][0], None, crank[0][1]]
+    rods = [0.06, 0.0, 0.08]
+    engine = bare.with_cycle(head[0][0], crank_end=ends, rod_diameter=rods)
+    maps = [cp.CycleMap([300, 600], [0, 1], cycles) for cycles in (head, crank)]
+    of_each = [maps[1], None, maps[1]]
+
+    def fired(i: int, j: int) -> cp.Engine:
+        at_ends = [crank[i][j], None, crank[i][j]]
+        return bare.with_cycle(head[i][j], crank_end=at_ends, rod_diameter=rods)
+
+    shares = {300.0: (1.0, 0.0), 450.0: (0.5, 0.5), 600.0: (0.0, 1.0)}
+    points: dict[str, Any] = {"rpm": [*shares], "load": [0, 0.25, 1], "orders": [1, 2, 3]}
+    for given in (maps[1], of_each):
+        s = cp.sweep(engine, cycle=maps[0], crank_end=given, **points)
+        for k, of_speed in enumerate(shares.values()):
+            for m, load in enumerate((0.0, 0.25, 1.0)):
+                mixed = sum(
+                    of_speed[i] * (load if j else 1.0 - load)
+                    * fired(i, j).balance(100.0, orders=[1, 2, 3]).read("crank_torque.gas")
+                    for i in (0, 1) for j in (0, 1)
+                )  # fmt: skip
+                found = s.read("crank_torque.gas")[k, m]
+                np.testing.assert_allclose(found, mixed, atol=1e-10 * np.abs(mixed).max())
+    at = s.engine_at(rpm=600, load=1)
+    assert at.crank_ends is not None
+    assert at.crank_ends[1] is None
+    np.testing.assert_array_equal(at.rod_diameter, rods)
+    assert s.loads_counted == "gas: cycle map; crank ends: cycle map"
+    peaks = cp.operating_map(
+        engine, [300, 600], cycle=maps[0], crank_end=maps[1], load=[0, 1], inertia=20.0
+    )
+    loads = cp.bearing_loads(fired(1, 1), 600.0)
+    np.testing.assert_allclose(peaks.main[1, 1], loads.main.peak, rtol=1e-9)
+    for wrong, words in (
+        ({"cycle": maps[0]}, "cycle replaces those of double-acting pistons: .*crank_end"),
+        ({"crank_end": maps[0]}, "crank_end = .*needs cycle"),
+        ({"cycle": maps[0], "crank_end": crank[0][0]}, "crank_end = .*give a crankpin.CycleMap"),
+        ({"cycle": maps[0], "crank_end": [maps[1]] * 2}, "crank_end has 2 entries"),
+        ({"cycle": maps[0], "crank_end": maps[1].replace(load=[0, 2])}, "crank_end has maps that"),
+    ):
+        options: dict[str, Any] = wrong if "cycle" not in wrong else wrong | {"load": 0.5}
+        with pytest.raises(cp.InputError, match=words):
+            cp.sweep(engine, rpm=400, **options)
+    with pytest.raises(cp.InputError, match="crank_end applies to double-acting pistons"):
+        cp.sweep(bare, rpm=400, load=0, cycle=maps[0], crank_end=maps[1])
 
 
 @pytest.mark.parametrize(

@@ -59,6 +59,7 @@ def sweep(
     pin_offset: ArrayLike | None = None,
     load: ArrayLike | None = None,
     cycle: CycleMap | Sequence[CycleMap | None] | None = None,
+    crank_end: CycleMap | Sequence[CycleMap | None] | None = None,
     crankcase: float | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
@@ -96,6 +97,9 @@ def sweep(
         Cycles over speed and load, for all cylinders, or for each a map of the same speeds and
         loads, None for a cylinder without gas load. They replace those of the engines. Harmonics
         are linear in pressure: those of the map's own cycles are computed once, and interpolated.
+    crank_end : CycleMap or sequence of CycleMap or None, optional
+        The same of the crank ends that the engines have; required with ``cycle`` where they have
+        some. The diameters of their piston rods stay.
     crankcase : float, optional
         Absolute pressure below the pistons, Pa, with ``cycle``; by default that of each engine, or
         of the atmosphere. Without ``cycle`` an engine has its own (:meth:`Engine.with_cycle`).
@@ -170,7 +174,9 @@ def sweep(
     if cycle is None and crankcase is not None:
         hint = "applies to a cycle map; engine.with_cycle(…, crankcase=…) has that of an engine"
         raise inputs.rejected("crankcase", crankcase, hint)
-    maps = None if cycle is None else GasMap.checked(cycle, engine_list, crankcase)
+    if cycle is None:
+        inputs.only_with("cycle", crank_end=crank_end)
+    maps = None if cycle is None else GasMap.checked(cycle, crank_end, engine_list, crankcase)
     whole = Sweep(tuple(engine_list), names, axes, held, request, maps, bar)
     inputs.warn_of_units(whole.mean_piston_speed)
     # The last value alone shows radians: a sweep in degrees passes parts of a turn in radians.

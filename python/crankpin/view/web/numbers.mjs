@@ -96,6 +96,16 @@ export class Numbers {
     return { force, moment, torque: inertia + gas + loads, inertia, gas, loads, driving, moving, pressures };
   }
 
+  /** Angles at which pressure jumps or bends: by how much torque on the main crank does, and its slope a degree. */
+  bends() {
+    return this.gas.filter(Boolean).flatMap(({ panels, pressure_deg: fires, swept, velocity, tdc_deg: tdc, delay }) =>
+      bendsOf(panels).map(([edge, jump, slope]) => {
+        const theta = edge + fires + delay;
+        const at = (by) => -swept * realSum(velocity, unit(theta + by - tdc - delay));
+        return [theta, jump * at(0), slope * at(0) + jump * (at(0.5) - at(-0.5))];
+      }));
+  }
+
   /** Absolute pressure in a cylinder, Pa: the polynomial of its cycle that counts there. */
   pressureAt({ panels: { edges_deg: edges, coefficients }, pressure_deg: fires, delay }, thetaDeg) {
     const at = edges[0] + reduced(thetaDeg - fires - delay - edges[0], this.cycle);
@@ -107,6 +117,20 @@ export class Numbers {
     }
     return chebyshev(coefficients[k], (2 * at - edges[k] - edges[k + 1]) / (edges[k + 1] - edges[k]));
   }
+}
+
+/** Edges of a cycle's polynomials, and by how much pressure and its slope a degree jump there. */
+function bendsOf({ edges_deg: edges, coefficients }) {
+  const beside = (k, end) => {
+    const half = 0.5 * (edges[k + 1] - edges[k]);
+    // Tₙ(±1) = (±1)ⁿ, and Tₙ'(±1) = (±1)ⁿ⁺¹·n².
+    const sum = (/** @type {(n: number) => number} */ of) => coefficients[k].reduce((all, c, n) => all + of(n) * c, 0);
+    return [sum((n) => end ** n), sum((n) => end ** (n + 1) * n * n) / half];
+  };
+  return coefficients.map((_, k) => {
+    const [before, after] = [beside(k ? k - 1 : coefficients.length - 1, 1), beside(k, -1)];
+    return [edges[k], after[0] - before[0], after[1] - before[1]];
+  });
 }
 
 const isHalf = (order) => !Number.isInteger(order);

@@ -72,7 +72,7 @@ function cylinderAt(figures, settings, given, before, motion) {
     pin: unit(pinDeg),
     tdc: unit(tdcDeg),
     strokes: strokes(figures, given, delay, before.angles, motion.angles),
-    endStrokes: given.crank_end ? endStrokes(figures, given.crank_end, delay, motion.angles) : null,
+    endStrokes: given.crank_end ? endStrokes(figures, given, delay, motion.angles) : null,
   };
 }
 
@@ -88,9 +88,12 @@ function strokes({ firing_deg: firing, strokes: count }, given, delay, [before],
   return periods(count, fires, lowest - highest);
 }
 
-/** The same of the chamber at a crank end, which grows as the piston rises. */
-function endStrokes({ strokes: count }, { pressure_deg: begins }, delay, [highest, lowest]) {
-  return periods(count, begins + delay, 360 - (lowest - highest));
+/** The same of the chamber at a crank end, which grows as the piston rises; at a head end beyond side rods as it falls. */
+function endStrokes({ strokes: count }, { side_rods: hangs, crank_end: end }, delay, [highest, lowest]) {
+  const falls = lowest - highest;
+  return hangs
+    ? periods(count, end.pressure_deg + highest + delay, falls)
+    : periods(count, end.pressure_deg + delay, 360 - falls);
 }
 
 /** Strokes of a chamber that begins to grow at an angle, for so many degrees. */

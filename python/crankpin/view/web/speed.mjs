@@ -1,5 +1,6 @@
 // Speed of a fired engine's crank over a cycle, with a flywheel.
 
+import { reduced } from "./complex.mjs";
 import { angularSpeed } from "./numbers.mjs";
 
 /** Steps of Newton's method, which doubles the digits with each. */
@@ -11,19 +12,28 @@ const ITERATIONS = 50;
  * The first integral ½·J(θ)·ω² = E + ∫(T − mean)dθ, where T is the torque of gas and loads on the crank, J has
  * pistons and rods, and E makes the mean speed that of turns over time.
  */
-export function speeds({ driving, moving }, { flywheel, slowest }, { rpm, cycle }) {
+export function speeds({ driving, moving }, { flywheel, slowest }, { rpm, cycle, bends }) {
   const mean = angularSpeed(rpm);
   if (flywheel === null || mean === 0) return null;
   const count = driving.length - 1;
   const step = (cycle * Math.PI) / 180 / count;
   const at = (k) => driving[(k + count) % count];
-  const average = driving.slice(1).reduce((sum, torque) => sum + torque, 0) / count;
-  const work = [0];
-  for (let k = 0; k < count; k++) {
-    // The integral of the cubic through four samples, between the middle two.
-    const torque = (13 * (at(k) + at(k + 1)) - at(k - 1) - at(k + 2)) / 24;
-    work.push(work[k] + step * (torque - average));
+  // The integral of the cubic through four samples, between the middle two.
+  const cubic = (value, k) => (13 * (value(k) + value(k + 1)) - value(k - 1) - value(k + 2)) / 24;
+  const torques = driving.slice(1).map((_, k) => cubic(at, k));
+  // Where torque jumps or bends: what the cubics beside miss.
+  for (const [angle, jump, slope] of bends) {
+    const place = reduced(angle, cycle) * (count / cycle);
+    const first = Math.floor(place);
+    const past = (x) => Math.max(x - (place - first), 0);
+    const bend = slope * (cycle / count);
+    const missed = (x) => (x >= place - first ? jump + bend * past(x) : 0);
+    const integral = (x) => (jump + 0.5 * bend * past(x)) * past(x);
+    for (const k of [-1, 0, 1]) torques[(first + k + count) % count] += integral(k + 1) - integral(k) - cubic(missed, k);
   }
+  const average = torques.reduce((sum, torque) => sum + torque, 0) / count;
+  const work = [0];
+  for (let k = 0; k < count; k++) work.push(work[k] + step * (torques[k] - average));
   const inertia = moving.map((own) => flywheel + own);
   // Newton's method for E; time falls with E and is convex, so that from below it does not overshoot.
   const least = 0.5 * slowest * mean ** 2;

@@ -18,7 +18,7 @@ export function turn(numbers, figures, rpm) {
   const curve = Object.fromEntries(["force", "moment", "torque", "inertia", "gas", "loads", "driving", "moving"]
     .map((name) => [name, samples.map((each) => each[name])]));
   for (const name of ["force", "moment"]) curve[name].length = numbers.turn / STEP + 1;
-  return { ...curve, speed: speeds(curve, figures, { rpm, cycle: numbers.span }) };
+  return { ...curve, speed: speeds(curve, figures, { rpm, cycle: numbers.span, bends: numbers.bends() }) };
 }
 
 /** Longest force and moment and largest torque of a turn; zero if they are rounding. */

@@ -13,14 +13,15 @@
 use std::sync::Arc;
 
 use super::{Engine, Gas};
-use crate::mechanism::cylinder::piston_area;
+use crate::mechanism::cylinder::ring_area;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::pressure::Cycle;
 pub use crate::pressure::chamber::Face;
 
-/// The crank end of a double-acting piston.
+/// The other end of a double-acting piston than that of its cylinder's cycle: the crank end, of one that side rods drive
+/// the head end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrankEnd {
     /// Index of its cycle.
@@ -55,7 +56,7 @@ impl Engine {
         if self.details[cylinder].side_rods { Face::Inner } else { Face::Outer }
     }
 
-    /// Pressures on the faces of a piston: of its cylinder's cycle, and of its crank end's.
+    /// Pressures on the faces of a piston: of its cylinder's cycle, and of its other end's.
     #[must_use]
     pub fn pressures(&self, cylinder: usize) -> Vec<FacePressure> {
         let (Some(gas), Some(bore)) = (&self.gas, self.details[cylinder].bore) else {
@@ -66,7 +67,7 @@ impl Engine {
             cycle: Arc::clone(&gas.cycles[index]),
             index,
             crankcase: gas.crankcase,
-            area: face.sign() * (piston_area(bore) - piston_area(rod_diameter)),
+            area: face.sign() * ring_area(bore, rod_diameter),
             delay,
             phase: self.phase_after(cylinder, delay),
         };
@@ -75,7 +76,11 @@ impl Engine {
             on(self.working_face(cylinder), index, 0.0, delay)
         });
         let crank_end = gas.crank_end(cylinder).map(|CrankEnd { cycle, rod_diameter }| {
-            on(Face::Inner, cycle, rod_diameter, self.lowest_after_tdc(cylinder))
+            let (face, delay) = match self.working_face(cylinder) {
+                Face::Outer => (Face::Inner, self.lowest_after_tdc(cylinder)),
+                Face::Inner => (Face::Outer, Angle::ZERO),
+            };
+            on(face, cycle, rod_diameter, delay)
         });
         own.into_iter().chain(crank_end).collect()
     }
@@ -133,11 +138,6 @@ impl Gas {
     /// Rejects crank ends that a piston cannot have.
     pub(super) fn check_crank_end(&self, engine: &Engine, cylinder: usize) -> Result<()> {
         let Some(CrankEnd { rod_diameter, .. }) = self.crank_end(cylinder) else { return Ok(()) };
-        if engine.details[cylinder].side_rods {
-            let hint =
-                "the piston is driven by side rods: its crank end is the chamber of its cycle";
-            return Err(Error::value(format!("crank_end[{cylinder}]"), "a cycle", hint));
-        }
         let bore = engine.details[cylinder].bore.unwrap_or(0.0);
         if (0.0..=bore).contains(&rod_diameter) {
             return Ok(());

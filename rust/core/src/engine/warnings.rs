@@ -93,15 +93,31 @@ pub fn of_engine(engine: &Engine) -> Vec<Warning> {
 pub fn of_gas(engine: &Engine, cancel: &Cancel) -> Result<Vec<Warning>> {
     let Some(gas) = engine.gas() else { return Ok(Vec::new()) };
     let mut found: Vec<Warning> = absolute("crankcase", gas.crankcase).into_iter().collect();
-    let mut worked = Vec::new();
-    for (i, station) in engine.stations().iter().enumerate() {
-        for FacePressure { cycle, index, face, delay, .. } in engine.pressures(i) {
-            let one = (index, &station.cylinder, face, delay);
-            if !worked.contains(&one) {
-                let mean = face.sign() * cycle.delayed(delay).imep(&station.cylinder, cancel)?;
-                found.extend(work(&cycle, mean));
-                worked.push(one);
+    let (chambers, mut worked) = (engine.chambers(), Vec::new());
+    for i in 0..engine.stations().len() {
+        for FacePressure { cycle, face, .. } in engine.pressures(i) {
+            let is_working = face == engine.working_face(i);
+            let pistons = chambers.iter().find(|chamber| is_working && chamber.contains(&i));
+            let acting = |&k: &usize| {
+                let face = if is_working { engine.working_face(k) } else { face };
+                let pressure = engine.pressures(k).into_iter().find(|on| on.face == face)?;
+                let cylinder = &engine.stations()[k].cylinder;
+                let FacePressure { index, delay, area, .. } = pressure;
+                Some((index, cylinder, face, delay, area.abs() * cylinder.travel()))
+            };
+            let one: Vec<_> =
+                pistons.map_or(&[i][..], Vec::as_slice).iter().filter_map(acting).collect();
+            if worked.contains(&one) {
+                continue;
             }
+            // Of two pistons that lead each other one may take work that the other gives.
+            let (mut done, mut swept) = (0.0, 0.0);
+            for &(_, cylinder, face, delay, volume) in &one {
+                done += volume * face.sign() * cycle.delayed(delay).imep(cylinder, cancel)?;
+                swept += volume;
+            }
+            found.extend(work(&cycle, done / swept));
+            worked.push(one);
         }
     }
     Ok(distinct(found))

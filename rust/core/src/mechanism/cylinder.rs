@@ -234,5 +234,11 @@ impl Cylinder {
 /// Area of a piston of this bore, m, in m².
 #[must_use]
 pub fn piston_area(bore: f64) -> f64 {
-    0.25 * std::f64::consts::PI * bore * bore
+    ring_area(bore, 0.0)
+}
+
+/// Area between two diameters, m, in m²: however little they differ, to their rounding.
+#[must_use]
+pub(crate) fn ring_area(outer: f64, inner: f64) -> f64 {
+    0.25 * std::f64::consts::PI * (outer - inner) * (outer + inner)
 }

@@ -116,7 +116,7 @@ pub struct DrawnCylinder {
     /// Whether side rods drive the piston from beyond its chamber.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     side_rods: bool,
-    /// At the crank end of a double-acting piston.
+    /// At the other end of a double-acting piston, the crank end or, of one on side rods, the head end.
     #[serde(skip_serializing_if = "Option::is_none")]
     crank_end: Option<DrawnCrankEnd>,
 }
