@@ -249,6 +249,21 @@ def test_what_is_left_of_a_linear_question_is_least() -> None:
     assert one.values[1] == pytest.approx(0.3 * 100 * (240 * np.pi / 30) ** 2, rel=1e-12)
 
 
+def test_what_cannot_vanish_is_least() -> None:
+    unit = 0.3 * (240 * np.pi / 30) ** 2
+    # Forces 5, 3 and 1 close no triangle; opposite they leave 1.
+    (one,) = design(3, masses=[5, 3, 1], spacing=1.0, by="[1].force.peak")
+    assert one.throws_deg == (0.0, 180.0, 180.0)
+    assert one.value == pytest.approx(unit, rel=1e-12)
+    assert one.isolated
+    # The force vanishes with any throw of the third; the moment is least, 400 − 300, with both outer
+    # cranks in phase. The minimum is flat: its place is known to the root of its rounding.
+    (one,) = design(3, masses=[400, None, 300], spacing=1.0)
+    assert one.values == pytest.approx([0.0, 100 * unit], rel=1e-10)
+    np.testing.assert_allclose(masses(one), [400, 700, 300], rtol=1e-9)
+    assert one.isolated
+
+
 def test_masses_by_themselves_and_places_by_themselves() -> None:
     equal = design(4, masses=[400, None, None, 400], spacing=0.5, throws_deg=[0, 180, 180, 0])
     np.testing.assert_allclose(masses(equal[0]), 400.0, rtol=1e-12)
