@@ -256,7 +256,7 @@ def test_what_cannot_vanish_is_least() -> None:
     assert one.throws_deg == (0.0, 180.0, 180.0)
     assert one.value == pytest.approx(unit, rel=1e-12)
     assert one.isolated
-    # The force vanishes with any throw of the third; the moment is least, 400 − 300, with both outer
+    # The force vanishes with any throw of the third; the moment is least, 400 − 300, with the outer
     # cranks in phase. The minimum is flat: its place is known to the root of its rounding.
     (one,) = design(3, masses=[400, None, 300], spacing=1.0)
     assert one.values == pytest.approx([0.0, 100 * unit], rel=1e-10)
