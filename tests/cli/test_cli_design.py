@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 V10 = cp.Engine.preset("v10-72")
+PRIMARY = "--by [1].force.peak,[1].moment.peak"
 SPLIT = "v6-60 --even-firing --pin-split=-180:180 --counterweights"
 
 
@@ -61,6 +62,14 @@ def test_csv_is_the_library_s_numbers(capsys: CAPTURE) -> None:
         ("v6-90 --intervals 150,90,150,90,150,90", "1 0-120-240 90 2"),
         ("v6-90 --cylinders 2 --by [1].force.peak --bank-angle 90 --counterweights", "1 0 90 1 0"),
         ("i3 --throws free --by [1].force.peak --seed 3", "1 0-120-240 2"),
+        (
+            f"i4 --masses 400,,?,400kg --positions 0,450mm,1.2,1.8 --throws 0,,,120 {PRIMARY}",
+            "1 0-160.893-313.898-120 846.64 865.33 0 0",
+        ),
+        (
+            "i3 --masses 400,,400 --throws free --by [1].force.peak,[1].moment.peak",
+            "1 0-180-0 800 0 0",
+        ),
         (f"{SPLIT} --own-splits --by [1].moment.peak", "1 0-120-0 -60, 60, -60 60 1 0"),
     ],
 )
@@ -83,6 +92,10 @@ def test_a_picture(capsys: CAPTURE, tmp_path: Path) -> None:
         ("v6-60 --count 1.5", "--count = 1.5: give a whole number"),
         ("v6-60 --shafts=1", "give different speed ratios"),
         ("v6-60 --throws 0,1", "give 3 angles to be put in order"),
+        ("i3 --masses 1,,", "--by = total.moment.peak: unlike cylinders are designed by"),
+        (f"i3 --masses 1,x,1 {PRIMARY}", "--masses = x: give a number"),
+        (f"i3 --masses 1,1 {PRIMARY}", "give one mass, kg, for each of the 3 cylinders"),
+        ("v6-60 --masses 1,,1,1,1,1", "unlike cylinders stand in line"),
     ],
 )
 def test_what_cannot_be_designed(capsys: CAPTURE, argv: str, message: str) -> None:

@@ -196,6 +196,18 @@ KINDS: dict[str, list[Any]] = {
     "count": [1],
     "cylinder": [CYLINDER, 1, Beside(CYLINDER, {"engines": ARRANGEMENTS[0], "spacing": 0.1})],
     "cylinders": [6, 3],
+    "masses": [
+        Beside(
+            [0.5, None, 0.5],
+            {"cylinders": 3, "layout": "inline", "throws_deg": ..., "by": "[1].force.peak"},
+        )
+    ],
+    "positions": [
+        Beside(
+            [0.0, None, 0.2],
+            {"cylinders": 3, "layout": "inline", "throws_deg": ..., "by": "[1].force.peak"},
+        )
+    ],
     "decimals": [3],
     "degree": [Beside(CYCLE.degree, {"theta_deg": CYCLE.theta_deg, "pressure": CYCLE.pressure})],
     "design": [0],

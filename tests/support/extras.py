@@ -17,7 +17,17 @@ if TYPE_CHECKING:
     Report = pytest.CollectReport | pytest.TestReport
 
 OPTIONAL = {
-    *("PIL", "anywidget", "cycler", "dask", "distributed", "exudyn", "hypothesis", "jsonschema"),
+    *(
+        "PIL",
+        "anywidget",
+        "cycler",
+        "dask",
+        "distributed",
+        "exudyn",
+        "h5py",
+        "hypothesis",
+        "jsonschema",
+    ),
     *("matplotlib", "mpmath", "nbclient", "nbformat", "numba", "openpyxl", "pandas", "playwright"),
     *("pytest_mpl", "scipy", "sympy", "tqdm", "xarray"),
 }

@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 EXTRAS = {
     "anywidget": "view",
     "dask.array": "dask",
+    "h5py": "hdf5",
     "matplotlib": "plot",
     "openpyxl": "excel",
+    "scipy.io": "optimize",
     "scipy.optimize": "optimize",
     "sympy": "exact",
     "tqdm.auto": "progress",

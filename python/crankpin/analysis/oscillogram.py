@@ -126,7 +126,7 @@ def oscillogram(
     OSError
         If the file cannot be read.
     ImportError
-        If it is a spreadsheet and openpyxl is not installed.
+        If openpyxl, SciPy or h5py, which spreadsheets, MATLAB or HDF5 need, is not installed.
 
     Warns
     -----

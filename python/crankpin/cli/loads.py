@@ -258,7 +258,11 @@ def _with_bores(engine: Engine, bore: float | None) -> tuple[list[Cylinder], str
     "trace",
     "measured cycles of a file: their mean and spread, prepared as options say",
     "name",
-    option("file", metavar="FILE", help="cylinder pressure of one or many cycles, a text file"),
+    option(
+        "file",
+        metavar="FILE",
+        help="cylinder pressure of one or many cycles: a text file, .xlsx, .mat or .h5",
+    ),
     "--bore",
     *_of_files(
         "the files",

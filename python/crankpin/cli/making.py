@@ -10,7 +10,7 @@ from crankpin._support import labels
 from crankpin.analysis.design.design import design
 from crankpin.analysis.tolerances.spreads import FIGURES
 from crankpin.analysis.tolerances.tolerances import tolerances
-from crankpin.cli.options import command, keyword, keywords, option, rejected
+from crankpin.cli.options import PROG, command, keyword, keywords, option, rejected
 from crankpin.cli.outputs import Shown, only
 
 if TYPE_CHECKING:
@@ -35,6 +35,20 @@ def _angles(call: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, 
     return ends[0] if len(ends) == 1 else tuple(ends)
 
 
+def _with_unknown(call: Given, flag: str) -> list[Any] | str:
+    """Return masses, places or throws, one for each cylinder, None where it is left out."""
+    text: str = call.text(flag)
+    parts = [part.strip().rstrip("?") for part in text.split(",")]
+    if flag == "--throws":
+        return (
+            text
+            if text == "free"
+            else [call.angles(flag, text=part)[0] if part else None for part in parts]
+        )
+    unit = "kg" if flag == "--masses" else "m"
+    return [call.one(flag, part, unit) if part else None for part in parts]
+
+
 @command(
     "design",
     "cranks, pin splits and bank angles that minimise an objective",
@@ -45,7 +59,10 @@ def _angles(call: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, 
     keyword(design, "bank_angle_deg", read=_angles, metavar="LOW:HIGH", default="NAME's"),
     keyword(design, "pin_split_deg", read=_angles, metavar="LOW:HIGH", default="shared pins"),
     keyword(design, "same_split", "--own-splits", help="let each throw have a split of its own"),
-    *keywords(design, "throws_deg even_firing intervals_deg counterweights"),
+    keyword(design, "throws_deg", read=_with_unknown),
+    keyword(design, "masses", read=_with_unknown, metavar="MASS,…", more=": 400,,,300"),
+    keyword(design, "positions", read=_with_unknown, metavar="LENGTH,…"),
+    *keywords(design, "even_firing intervals_deg counterweights"),
     keyword(
         design,
         "shafts",
@@ -60,9 +77,12 @@ def _angles(call: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, 
         "--pick", metavar="N", default="1", help="which design --save writes (default: %(default)s)"
     ),
     "--force",
-    example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
+    example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak\n"
+    f"  {PROG} design i4 --masses 400,,,400 --positions 0,0.45,1.2,1.8 --throws 0,,,120 "
+    "--by [1].force.peak,[1].moment.peak",
     note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
-    "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
+    "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH. With --masses\n"
+    "or --positions cylinders in line are unlike; what is left out, or ?, is chosen.",
 )
 def _design(call: Given) -> Shown:
     engine = call.engine("design")
@@ -76,10 +96,11 @@ def _design(call: Given) -> Shown:
         raise rejected("--pick", str(pick), "give the place of one of the designs, from 1")
     if vee and options["layout"] == "vee":
         options.setdefault("bank_angle_deg", engine.bank_angle_deg)
+    if not {"masses", "positions"} & options.keys():
+        options["rotating_mass"] = float(engine.rotating_mass[0])
     designs = design(
         cylinder=engine.cylinders[0],
         spacing=_spacing(engine),
-        rotating_mass=float(engine.rotating_mass[0]),
         rpm=call.number("--rpm", "rpm"),
         by=call.text("--by"),
         orders=call.orders(),

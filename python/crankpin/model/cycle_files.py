@@ -137,11 +137,13 @@ def load(
     Parameters
     ----------
     path : str or pathlib.Path
-        ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``, or ``.xlsx``, which needs
-        ``pip install "crankpin[excel]"``.
+        ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``; ``.xlsx``, which needs
+        ``pip install "crankpin[excel]"``; or variables of a file of MATLAB, ``.mat``, which needs
+        ``crankpin[optimize]``, or of HDF5, ``.h5``, ``crankpin[hdf5]``.
     columns : sequence of int or str, optional
         Columns of angle and pressure, those of further cycles after them, by number from 0 or name;
-        by default the first two, and all that are like the second. Names are with or without unit.
+        by default the first two, and all that are like the second. Names are with or without unit;
+        that of a variable of two dimensions is that of all its columns.
     sheet : str, optional
         Sheet of a spreadsheet; by default the first.
     tdc_deg : float, default 0.0
@@ -171,7 +173,7 @@ def load(
     OSError
         If the file cannot be read.
     ImportError
-        If it is a spreadsheet and openpyxl is not installed.
+        If openpyxl, SciPy or h5py, which spreadsheets, MATLAB or HDF5 need, is not installed.
 
     Warns
     -----
@@ -184,7 +186,7 @@ def load(
     chosen = None if columns is None else inputs.items("columns", columns, hint)
     if chosen is not None and len(chosen) < 2:
         raise inputs.rejected("columns", columns, hint)
-    text = table_files.read(file, chosen, sheet)
+    text = table_files.read(file, chosen, sheet, tables=True)
     title = _name(text.facts.get("name", file.stem)) if name is None else name
     options = (pressure_unit, angle_unit, gauge, atmosphere, recorded_rpm, strokes)
     return _recorded(text, chosen is None, tdc_deg, title, *options)

@@ -1,4 +1,4 @@
-"""Columns of numbers in text files and spreadsheets, with their line numbers."""
+"""Columns of numbers in text files, spreadsheets and files of arrays, with their line numbers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs
+from crankpin._support import inputs, lazy
 from crankpin._support.optional import library
 
 if TYPE_CHECKING:
@@ -25,8 +25,15 @@ TEXTS = (".csv", ".tsv", ".txt", ".dat", ".asc")
 """Endings of text files."""
 SHEETS = (".xlsx", ".xlsm")
 """Endings of spreadsheets."""
-TABLE_ENDINGS = (*TEXTS, *SHEETS)
-FILE_HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc, or a spreadsheet, .xlsx"
+MATLAB = (".mat",)
+HDF5 = (".h5", ".hdf5", ".hdf", ".he5")
+ARRAYS = (*MATLAB, *HDF5)
+"""Endings of files of arrays."""
+TABLE_ENDINGS = (*TEXTS, *SHEETS, *ARRAYS)
+FILE_HINT = (
+    "name a text file, .csv, .tsv, .txt, .dat or .asc, a spreadsheet, .xlsx, or a file of arrays, "
+    ".mat or .h5"
+)
 
 # At the end of a piece a carriage return may be the first half of a line's end.
 _LINE = re.compile(r"\r\n|\r(?!\Z)|\n")
@@ -94,8 +101,22 @@ class Columns(NamedTuple):
         return self._replace(places=places, numbers=self.numbers[:, chosen])
 
 
-def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> Columns:
-    """Read a file piece by piece; of what it has only the numbers of the columns are kept."""
+def read(
+    file: Path, columns: list[Column] | None, sheet: str | None = None, *, tables: bool = False
+) -> Columns:
+    """Read a file piece by piece; of what it has only the numbers of the columns are kept.
+
+    With ``tables`` the name of a table in a file of arrays is that of all its columns.
+    """
+    if file.suffix.lower() not in ARRAYS:
+        return _of_lines(file, columns, sheet)
+    if sheet is not None:
+        raise inputs.rejected("sheet", sheet, "files of arrays have none; leave it out")
+    return _of_arrays(file, columns, tables=tables)
+
+
+def _of_lines(file: Path, columns: list[Column] | None, sheet: str | None) -> Columns:
+    """Return the columns of a text file or a spreadsheet."""
     facts: dict[str, str] = {}
     header = above = digits = ""
     rows: _Rows | None = None
@@ -149,6 +170,29 @@ def read(file: Path, columns: list[Column] | None, sheet: str | None = None) -> 
         raise inputs.faulty("path", "has no line of two numbers alone", hint)
     numbers, lines = np.concatenate(parts), np.concatenate(places)
     return Columns(facts, heads, names, rows.width, rows.places, numbers, lines)
+
+
+def _of_arrays(file: Path, columns: list[Column] | None, *, tables: bool) -> Columns:
+    """Return variables of a file of arrays as columns, each sample as a line."""
+    array_files = lazy.imported("crankpin.model.array_files")
+    variables, heads, arrays = array_files.read(file)
+    places = list[int]()
+    for column in range(len(heads)) if columns is None else columns:
+        whole = [k for k, variable in enumerate(variables) if variable == column]
+        places += whole if tables and whole else [_place(heads, [], column, len(heads))]
+    array_files.same_length([heads[k] for k in places], [arrays[k] for k in places])
+    if len(places) * len(arrays[places[0]]) > inputs.MOST_NUMBERS:
+        fault = f"has more than {inputs.MOST_NUMBERS} numbers"
+        raise inputs.faulty("path", fault, "choose columns, or split it")
+    numbers = np.stack([arrays[k] for k in places], axis=1)
+    lines = np.arange(1, len(numbers) + 1)
+    read = Columns({}, heads, [], len(heads), places, numbers, lines)
+    needed = numbers[:, :2] if columns is None else numbers
+    if (wrong := ~np.isfinite(needed)).any():
+        row, column = (int(k) for k in np.argwhere(wrong)[0])
+        fault = f"has {needed[row, column]} in {read.where(row, column)}"
+        raise inputs.faulty("path", fault, "give finite numbers, or leave the samples out")
+    return read
 
 
 # --- lines ----------------------------------------------------------------------------------------

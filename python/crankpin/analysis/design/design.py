@@ -17,6 +17,7 @@ from crankpin.analysis.design import optima
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.design.families import engines_of, families, one_cylinder, warn_of_units
 from crankpin.analysis.design.question import checked
+from crankpin.analysis.design.vanishing import sorted_engines
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.ranking.objectives import tie_tolerance
 from crankpin.analysis.ranking.ranking import groups
@@ -28,12 +29,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Angles, Order, Orders
+    from crankpin._support.inputs import Angle, Angles, Order, Orders
     from crankpin._support.progress import Progress
     from crankpin.analysis.arrangements.cranks import Crank
     from crankpin.analysis.design.families import Family
     from crankpin.analysis.design.optima import Optimum
     from crankpin.analysis.design.question import Kind, Question, Range
+    from crankpin.analysis.design.unlike import Unlike
     from crankpin.analysis.ranking.objectives import Measure, Objective
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.model.cylinder import Cylinder
@@ -45,14 +47,16 @@ def design(
     *,
     layout: Kind,
     cylinder: Cylinder,
-    spacing: float,
+    spacing: float | None = None,
     rpm: float,
     by: str | Measure | Sequence[str | Measure],
     bank_angle_deg: Range | None = None,
     shared_pins: bool | None = None,
     pin_split_deg: Range | None = None,
     same_split: bool = True,
-    throws_deg: Angles | Literal["free"] | None = None,
+    throws_deg: Angles | Sequence[Angle | None] | Literal["free"] | None = None,
+    masses: Sequence[float | None] | None = None,
+    positions: Sequence[float | None] | None = None,
     even_firing: bool = False,
     intervals_deg: Angles | None = None,
     strokes: int = 4,
@@ -71,7 +75,8 @@ def design(
     Finite choices (orders of throws; the throws that a firing needs) are all compared, those that
     are mirror images of each other once. A single angle that may vary is followed over its range,
     several are optimised from many starts, with closed-form derivatives (needs SciPy); all optima
-    found are reported.
+    found are reported. With ``masses`` or ``positions`` cylinders in line are unlike, and what is
+    None of these and of the throws is chosen so that forces and moments of orders vanish.
 
     Parameters
     ----------
@@ -82,8 +87,8 @@ def design(
         split by 180°).
     cylinder : Cylinder
         Moving parts of every cylinder.
-    spacing : float
-        Distance between neighbouring throws, m.
+    spacing : float, optional
+        Distance between neighbouring throws, m. Needed without ``positions``.
     rpm : float
         Crank speed, rpm.
     by : str, callable or sequence of these
@@ -103,7 +108,13 @@ def design(
     throws_deg : sequence of number or str, or "free", optional
         Throws to be put in the best order, degrees, or ``"free"`` for any angles; by default
         equally spaced ones. These are, of an even number, also half as many directions, each twice
-        (0-180-180-0).
+        (0-180-180-0). With ``masses`` or ``positions`` they are those of the throws in their
+        sequence, None for unknown ones, and by default free.
+    masses : sequence of float or None, optional
+        Reciprocating masses of unlike cylinders in line, kg, from the front one. None for those
+        that are to be chosen so that the objectives vanish.
+    positions : sequence of float or None, optional
+        Places of the cylinders along the crank, m, ascending. None for those to be chosen.
     even_firing : bool, default False
         True for only cranks that fire evenly. That determines the throws, and, on shared
         pins, the bank angles.
@@ -193,22 +204,51 @@ def design(
         rotating_mass=rotating_mass,
         counterweights=counterweights,
         shafts=shafts,
+        masses=masses,
+        positions=positions,
     )
     with suppressed("mean piston speed"):
-        warn_of_units(question)
-        search = Search(question, objectives, speed, summed)
-        best = search.optima(wanted, start, watched)
-        designs, swept = search.best(best, wanted, tolerance)
+        if question.unlike is not None:
+            designs, swept = _of_unlike_cylinders(
+                question, question.unlike, objectives, speed, summed, start, tolerance, watched
+            )
+            number = cranks = len(designs)
+        else:
+            warn_of_units(question)
+            search = Search(question, objectives, speed, summed)
+            best = search.optima(wanted, start, watched)
+            designs, swept = search.best(best, wanted, tolerance)
+            number, cranks = len(best), search.cranks
     inputs.warn_of_units(swept.mean_piston_speed)
     return Designs(
         question,
         tuple(objective.bare() for objective in objectives),
         speed,
         None if summed is None else tuple(summed),
-        designs,
-        len(best),
-        search.cranks,
+        designs[:wanted],
+        number,
+        cranks,
     )
+
+
+def _of_unlike_cylinders(
+    question: Question,
+    unlike: Unlike,
+    objectives: Sequence[Objective],
+    rpm: float,
+    orders: Sequence[Order] | None,
+    seed: int,
+    tie_rtol: float,
+    progress: Progress,
+) -> tuple[tuple[Design, ...], Sweep]:
+    """Return the designs of which the first objectives vanish, and the sweep of them."""
+    ordered, swept = sorted_engines(
+        question, unlike, objectives, rpm, orders, seed, tie_rtol, progress
+    )
+    mirror = not question.cylinder.pin_offset
+    return tuple(
+        Design(*each, {"mirrored": each[-1].mirrored()} if mirror else {}) for each in ordered
+    ), swept
 
 
 # --- the search -----------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from crankpin._support.record import Listed
 from crankpin._support.tables import Item, Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned
+from crankpin.analysis.design.unlike import fewest_cylinders
 from crankpin.analysis.ranking.objectives import ByObjectives, named
 from crankpin.analysis.sweeps.sweep import sweep
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.design.question import Question
+    from crankpin.analysis.design.unlike import Unlike
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine
 
@@ -169,6 +171,8 @@ class Designs(ByObjectives, Listed[Design], Tabled):
     @property
     def table(self) -> Table:
         """Table that is shown: the designs, best first."""
+        if self.question.unlike is not None:
+            return self._of_unlike_cylinders(self.question.unlike)
         designs = self.designs
         vee = self.question.banks == 2
         split = vee and any(any(design.pin_split_deg) for design in self)
@@ -194,6 +198,39 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         starred = any(not design.isolated for design in designs)
         return Table.from_rows(
             title, heads, rows, values, note=note if starred else "", loads=self.loads_counted
+        )
+
+    def _of_unlike_cylinders(self, unlike: Unlike) -> Table:
+        """Return the table of designs with the masses and places that were unknown."""
+        free = [
+            (name, unit, [k for k, each in enumerate(values) if each is None])
+            for name, unit, values in (("m", "kg", unlike.masses), ("z", "m", unlike.positions))
+        ]
+        heads: list[str | tuple[str, str]] = ["place", ("throws", "°")]
+        heads += [(f"{name}{k + 1}", unit) for name, unit, which in free for k in which]
+        heads += [(objective.head, objective.unit) for objective in self.objectives]
+        rows = [
+            (design.place, f"{design.crank.text}{'' if design.isolated else NEARBY}")
+            for design in self.designs
+        ]
+        figures = [
+            [
+                *(design.engine.cylinders[k].reciprocating_mass for k in free[0][2]),
+                *design.engine.z[free[1][2]],
+                *design.values,
+            ]
+            for design in self.designs
+        ]
+        title = f"Designs of unlike cylinders by {self._description()}"
+        notes = (
+            []
+            if all(each.isolated for each in self.designs)
+            else [f"{NEARBY} other masses, places or throws nearby are as good"]
+        )
+        if len(unlike.masses) < (fewest := fewest_cylinders(self.objectives)):
+            notes.append(f"All of these vanish of no fewer than {fewest} cylinders with one rod")
+        return Table.from_rows(
+            title, heads, rows, np.array(figures), note="; ".join(notes), loads=self.loads_counted
         )
 
     @property

@@ -20,6 +20,7 @@ from crankpin.analysis.arrangements.cranks import (
     exact,
     simple,
 )
+from crankpin.analysis.design.unlike import Unlike, unknowns
 from crankpin.model import checks
 from crankpin.model.data import big_end
 
@@ -66,6 +67,8 @@ class Question:
     """True if the forward part of the first order is removed by counterweights."""
     shafts: tuple[Order, ...]
     """Speed ratios of the balance shafts."""
+    unlike: Unlike | None = None
+    """Masses, places and throws of which some are to be chosen; None for equal cylinders."""
 
     @property
     def count(self) -> int:
@@ -122,7 +125,7 @@ def checked(
     shared_pins: bool | None,
     pin_split_deg: Range | None,
     same_split: object,
-    throws_deg: Angles | Literal["free"] | None,
+    throws_deg: Angles | Sequence[Angle | None] | Literal["free"] | None,
     even_firing: object,
     intervals_deg: Angles | None,
     strokes: object,
@@ -130,6 +133,8 @@ def checked(
     rotating_mass: object,
     counterweights: object,
     shafts: Iterable[float | str | Fraction],
+    masses: object = None,
+    positions: object = None,
 ) -> Question:
     """Return the question that these arguments ask, or raise an InputError."""
     kind = inputs.one_of("layout", layout, ("inline", "vee", "flat", "boxer"))
@@ -155,6 +160,20 @@ def checked(
         hint = Hint.of(f"{why}`throws_deg`, or `even_firing` and `intervals_deg`")
         raise inputs.rejected("throws_deg", throws_deg, hint)
     count = number // banks
+    balancers = inputs.flag("counterweights", counterweights) or any(_shafts(shafts))
+    unlike = None
+    if masses is not None or positions is not None:
+        if kind != "inline" or intervals is not None or balancers:
+            why = "unlike cylinders stand in line, with free firing and without balancers"
+            name, value = ("positions", positions) if masses is None else ("masses", masses)
+            raise inputs.rejected(name, value, why)
+        if rotating_mass:
+            why = "unlike cylinders are designed by their reciprocating masses; leave it out"
+            raise inputs.rejected("rotating_mass", rotating_mass, why)
+        step = inputs.optional_number("spacing", spacing)
+        mass = cylinder.reciprocating_mass
+        unlike = unknowns(count, masses, positions, step, mass, throws_deg)
+        free, rotating_mass, spacing = True, 0.0, 1.0
     return Question(
         cylinders=number,
         banks=banks,
@@ -175,6 +194,7 @@ def checked(
         ),
         counterweights=inputs.flag("counterweights", counterweights),
         shafts=_shafts(shafts),
+        unlike=unlike,
     )
 
 
