@@ -101,7 +101,14 @@ pub const ALIASES: [(&str, &str); 36] = [
 const NAMED_UNITS: [(&str, &[(&str, Exact)]); 5] = [
     ("°", &[("°", Exact::ONE), ("deg", Exact::ONE), ("º", Exact::ONE), ("degrees", Exact::ONE)]),
     ("rpm", &[("rpm", Exact::ONE), ("/min", Exact::ONE), ("1/min", Exact::ONE)]),
-    ("Hz", &[("hz", Exact::ONE), ("khz", Exact { number: 1, power: 3, below: 1 }), ("MHz", Exact { number: 1, power: 6, below: 1 })]),
+    (
+        "Hz",
+        &[
+            ("hz", Exact::ONE),
+            ("khz", Exact { number: 1, power: 3, below: 1 }),
+            ("MHz", Exact { number: 1, power: 6, below: 1 }),
+        ],
+    ),
     ("", &[("%", Exact { number: 1, power: -2, below: 1 })]),
     ("count", &[]),
 ];
