@@ -25,13 +25,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from PIL import Image
 from stability_cases import CASES, HARMONICS
+from stability_links import LINKS
 from stability_mounts import MOUNTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 OUT = Path(__file__).parent / "out"
-ALL = [*CASES, *MOUNTS]
+ALL = [*CASES, *LINKS, *MOUNTS]
 """Cases besides harmonics."""
 LEAST, MOST = -17.0, 0.0
 """Colours run over these powers of ten: from exact to wholly wrong."""

@@ -261,6 +261,13 @@ def test_knuckles_of_link_rods(capsys: CAPTURE) -> None:
     assert 'give "stroke" or "compression"' in refused(
         capsys, f"new radial --cylinders 5 {sizes} --link-rods 52mm:178mm::equal-height"
     )
+    for typed, fault in (
+        (":178mm", "radius = None"),
+        ("52mm:178mm:-4g", "big_end_mass = -0.004"),
+        ("52mm:178mm::equal-compression", "radius = 0.052"),
+    ):
+        said = refused(capsys, f"new radial --cylinders 5 {sizes} --link-rods {typed}")
+        assert said.startswith(f"--link-rods = {typed}: {fault}")
 
 
 def test_cylinders_fire_together(capsys: CAPTURE) -> None:

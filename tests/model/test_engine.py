@@ -542,6 +542,14 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: cp.bearing_loads(I4, 3000, theta_deg=[0, math.pi, 2 * math.pi]),
         "^theta_deg ends at 6.28319",
     ),
+    "link rods in millimetres": (
+        lambda: vee(rods=cp.LinkRods(0.03, 115)),
+        "^length = 115 m at a crank radius of .* millimetres",
+    ),
+    "their big ends in grams": (
+        lambda: vee(rods=cp.LinkRods(0.03, big_end_mass=400)),
+        "^big_end_mass = 400 kg at a crank radius of .* grams",
+    ),
     "sevenths of a turn cut off": (
         lambda: I4.replace(tdc_deg=[0, 51.428571, 180, 180]),
         r"^tdc_deg = .*: 51\.428571 is 4\.3e-7° from 360/7; if that is meant, give it as text",

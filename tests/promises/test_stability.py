@@ -1,8 +1,8 @@
 """Are the promises kept where methods fail, and do the methods fail there?
 
-Conditions, promises and their reasons stand in ``benchmarks/stability_cases.py`` and
-``benchmarks/stability_mounts.py``, the other methods
-in ``benchmarks/methods.py``; ``docs/explanations/stability.md`` has the measured figures.
+Conditions, promises and their reasons stand in ``benchmarks/stability_cases.py``,
+``stability_links.py`` and ``stability_mounts.py``, the other methods in ``methods.py`` beside them;
+``docs/explanations/stability.md`` has the measured figures.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import kinematics
 from stability_cases import CASES, HARMONICS, Case, HarmonicCase
+from stability_links import LINKS
 from stability_mounts import MOUNTS
 from support import in_turn
 
@@ -87,7 +88,7 @@ def test_what_vanishes_in_harmonics_is_zero(case: HarmonicCase) -> None:
 # --- everything else ----------------------------------------------------------------------------
 
 
-@in_turn("case", [*CASES, *MOUNTS])
+@in_turn("case", [*CASES, *LINKS, *MOUNTS])
 def test_promises(case: Case) -> None:
     assert case.ours() <= case.promise
     assert case.plain() > case.promise

@@ -74,7 +74,7 @@ def _sums(cylinders: list[Hung], orders: range) -> dict[tuple[str, str], list[mp
                 master = cylinders[own.master]
                 wrist = on_bore(lower, master)
                 share = mp(own.radius / master.rod) * turned(own.angle)
-                lower = tuple(  # type: ignore[assignment]
+                lower = tuple(
                     foot + share * (top - foot) for foot, top in zip(lower, wrist, strict=True)
                 )
                 bodies.append((own.big_end, lower))

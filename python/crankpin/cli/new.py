@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from crankpin._core import InputError
 from crankpin._support import inputs, units
 from crankpin._support.messages import suppressed
 from crankpin.analysis.mounts.powertrain import Powertrain
@@ -100,7 +101,10 @@ def _rods(call: Given, flag: str) -> LinkRods:
     last = parts[3] if len(parts) > 3 else ""
     equal = last.removeprefix("equal-") if last.startswith("equal-") else None
     angles = last.split(",") if last and equal is None else "bores"
-    return LinkRods(radius, length, angles, mass, equal)  # type: ignore[arg-type]
+    try:
+        return LinkRods(radius, length, angles, mass, equal)  # type: ignore[arg-type]
+    except InputError as error:
+        raise rejected(flag, call.text(flag), str(error)) from None
 
 
 def _masters(call: Given, flag: str) -> str | list[int]:

@@ -12,6 +12,7 @@ from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.messages import Hint
 from crankpin._support.record import Input
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -276,6 +277,9 @@ def with_masters(
         numbers = [inputs.whole("master", one, 1, len(core.z)) for one in given]
         if not numbers:
             raise inputs.rejected("master", master, hint)
+    checks.place(core, "radius", rods.radius, middle=0.0)
+    checks.place(core, "length", rods.length, middle=0.0)
+    checks.masses(core, big_end_mass=rods.big_end_mass or 0.0)
     return core.with_master_rods(
         rods.radius,
         rods.length,

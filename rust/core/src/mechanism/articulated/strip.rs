@@ -102,7 +102,7 @@ impl Linkage {
         // The master's rod would stand across its bore where sin φ = 1.
         let mut high = (1.0 / self.master_ratio - self.master_offset.abs()).max(1.0).acosh();
         high = high.min((2.0 * (1.0 + self.rod + self.radius)).acosh());
-        // A link rod that is barely long enough for its knuckle takes the distance itself, which is sampled.
+        // A link rod that is barely long enough for its knuckle takes the distance itself, polished at its peaks.
         let is_long = self.farthest_within(1.0) < LONG * self.rod;
         let farthest = |height: f64| {
             if is_long { self.farthest_within(height.cosh()) } else { self.farthest(height) }
