@@ -420,7 +420,9 @@ def test_a_record_of_an_oscilloscope_is_read_by_roles(
     of_all = printed(capsys, f"trace i4 scope.csv --bore 86mm {each} {clock}")
     assert "scope, 4 cylinders, spread" in of_all
     rate = "--sampling-rate 50000"
-    assert "irregularity" in printed(capsys, f"{one} {rate}")
+    by_rate = printed(capsys, f"{one} {rate}")
+    assert "irregularity" in by_rate
+    assert printed(capsys, f"{one} --sampling-rate 50kHz") == by_rate
     for line, message in (
         (f"trace i4 scope.csv --pressure CH1:20bar/V {clock} --columns 0,1", "--columns = 0,1: an"),
         ("trace i4 scope.csv --pressure CH1:20bar/V --encoder CH5", "--encoder needs --pulses"),
@@ -429,6 +431,7 @@ def test_a_record_of_an_oscilloscope_is_read_by_roles(
         (f"{one.replace('CH5', 'CH9')}", "--encoder = CH9: there is none; the file has"),
         (f"{one} --gamma 1.3", "--gamma = 1.3: needs --compression-ratio"),
         (f"{one} --time 0:h", "--time = '0:h': give a unit of time"),
+        (f"{one} --sampling-rate 50mHz", "--sampling-rate = 50mHz"),
         (f"{one} --time 7", "--time = 7: give numbers from 0 to 6"),
     ):
         assert main(line.split()) == 2, line

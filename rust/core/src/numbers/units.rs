@@ -96,16 +96,25 @@ pub const ALIASES: [(&str, &str); 36] = [
     ("millimeter", "mm"),
 ];
 
-/// Units that are no product of symbols: of angles, of speed, of ratios (empty) and of counts.
-const NAMED_UNITS: [(&str, &[(&str, Exact)]); 4] = [
+/// Units that are no product of symbols: of angles, of speed, of frequencies, of ratios (empty) and of
+/// counts. Those with capitals are read as they are written: MHz is not mHz.
+const NAMED_UNITS: [(&str, &[(&str, Exact)]); 5] = [
     ("°", &[("°", Exact::ONE), ("deg", Exact::ONE), ("º", Exact::ONE), ("degrees", Exact::ONE)]),
     ("rpm", &[("rpm", Exact::ONE), ("/min", Exact::ONE), ("1/min", Exact::ONE)]),
+    (
+        "Hz",
+        &[
+            ("hz", Exact::ONE),
+            ("khz", Exact { number: 1, power: 3, below: 1 }),
+            ("MHz", Exact { number: 1, power: 6, below: 1 }),
+        ],
+    ),
     ("", &[("%", Exact { number: 1, power: -2, below: 1 })]),
     ("count", &[]),
 ];
 
 /// Units that a hint names for one of the library's.
-const HINTS: [(&str, &str); 9] = [
+const HINTS: [(&str, &str); 10] = [
     ("kg", "g, lb, oz"),
     ("m", "mm, in"),
     ("kg·m", "g·mm, oz·in"),
@@ -114,6 +123,7 @@ const HINTS: [(&str, &str); 9] = [
     ("N·m", "N·m, lbf·ft"),
     ("Pa", "bar, psi"),
     ("rpm", "rpm"),
+    ("Hz", "kHz, MHz"),
     ("", "%"),
 ];
 
@@ -206,7 +216,8 @@ pub fn factor_of(unit: &str, dimension: Dimension) -> Option<Exact> {
 pub fn typed(word: &str, unit: &str) -> Option<Exact> {
     if let Some((_, words)) = NAMED_UNITS.iter().find(|(name, _)| *name == unit) {
         let lower = word.to_ascii_lowercase();
-        return words.iter().find(|(name, _)| *name == lower).map(|(_, factor)| *factor);
+        let known = |name: &str| name == word || name == lower;
+        return words.iter().find(|(name, _)| known(name)).map(|(_, factor)| *factor);
     }
     let (dimension, own) = factor(unit)?;
     factor_of(word, dimension)?.times(own.inverse()?)
@@ -302,12 +313,23 @@ mod tests {
             ("Degrees", "°", 1.0),
             ("1/min", "rpm", 1.0),
             ("%", "", 0.01),
+            ("Hz", "Hz", 1.0),
+            ("kHz", "Hz", 1e3),
+            ("KHZ", "Hz", 1e3),
+            ("MHz", "Hz", 1e6),
         ] {
             let factor = typed(word, unit).unwrap().value();
             assert!((factor / value - 1.0).abs() < 1e-15, "{word}: {factor}");
         }
-        for (word, unit) in [("kg", "m"), ("m", "kg·m"), ("%", "rpm"), ("rpm", "°"), ("x", "count")]
-        {
+        for (word, unit) in [
+            ("kg", "m"),
+            ("m", "kg·m"),
+            ("%", "rpm"),
+            ("rpm", "°"),
+            ("x", "count"),
+            ("mHz", "Hz"),
+            ("rpm", "Hz"),
+        ] {
             assert_eq!(typed(word, unit), None, "{word}");
         }
     }
