@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin import _core
 from rederivation import oscillograms as again
 from support import in_turn
 
@@ -92,6 +93,130 @@ def test_the_crank_angle_is_that_of_the_motion(
     expected = [motion.rpm * motion.waver.get(order, 0.0) for order in orders]
     mean = scope.speed_harmonics(orders).mean(axis=0)
     np.testing.assert_allclose(mean, expected, atol=1.5e-3 * motion.rpm)
+
+
+def clock(
+    wheel: np.ndarray[Any, Any],
+    mark: np.ndarray[Any, Any],
+    seconds: np.ndarray[Any, Any],
+    places: str,
+) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], list[tuple[float, int]]]:
+    """Return times of pulses, their crank angles and faults, of signals with default thresholds."""
+    at, angles, _, faults = _core.crank_clock(
+        seconds, (wheel, None, False), places, (mark, None, False)
+    )
+    return at, angles, faults
+
+
+def test_noise_at_slow_edges_makes_no_pulses_and_shifts_none() -> None:
+    """A sine of 60 places with noise of a tenth of its range: edges cross many times."""
+    seconds = np.arange(0.0, 0.4, 5e-6)
+    turned = np.radians(9000.0 * seconds - 100.0)
+    noise = np.random.default_rng(0).uniform(-0.6, 0.6, len(seconds))
+    at, _, faults = clock(2.5 * np.sin(60.0 * turned) + noise, np.sin(turned), seconds, "60")
+    assert not faults
+    assert len(at) == 600  # 3600°
+    late = ((9000.0 * at - 100.0 + 3.0) % 6.0 - 3.0) / 9000.0
+    # The first of the crossings would be early by half of the time in which the sine is within the
+    # noise, 1.2 V over 23.6 V/ms, 25 µs; the middle is early and late alike.
+    assert abs(late.mean()) < 3e-6
+    assert abs(late).max() < 30e-6
+
+
+def test_the_index_is_the_mean_of_its_marks() -> None:
+    """Marks alternately 0.4° early and late: their mean is the place, no single one."""
+    seconds = np.arange(0.0, 0.6, 5e-6)
+    theta = 9000.0 * seconds - 100.0
+    late = np.where(theta // 360.0 % 2 < 1, 0.4, -0.4)
+    mark = ((theta - late - 20.0) % 360.0 < 3.0) * 5.0
+    at, angles, _ = clock(np.sin(360.0 * np.radians(theta)), mark, seconds, "360")
+    # Marks are known to half a sample, 0.02°; of an odd number of them one is not paired.
+    away = (angles + 20.0 - (9000.0 * at - 100.0) + 180.0) % 360.0 - 180.0
+    assert abs(away).max() < 0.4 / 14 + 0.025
+
+
+def test_a_late_tooth_before_a_lost_one_is_counted_on() -> None:
+    """Two intervals of 1.45 places are three: what one is more than whole is added to the next."""
+    seconds = np.arange(0.0, 0.6, 5e-6)
+    theta = 9000.0 * seconds - 100.0
+    place = theta / 6.0
+    wheel = (place % 1.0 < 0.5) * 5.0
+    for number in (20.0, 80.0):
+        wheel[(place >= number) & (place < number + 3.0)] = 0.0
+        for first in (number + 0.45, number + 1.9):  # for 0, 1 and 2
+            wheel[(place >= first) & (place < first + 0.5)] = 5.0
+    mark = ((theta - 3.0) % 360.0 < 3.0) * 5.0
+    at, angles, faults = clock(wheel, mark, seconds, "60")
+    assert [count for _, count in faults] == [1, 1]
+    away = abs((angles + 3.0 - (9000.0 * at - 100.0) + 180.0) % 360.0 - 180.0)
+    # All others are at their places, to a sample; these are late by 0.45 and early by 0.1 of 6°.
+    np.testing.assert_allclose(np.sort(away)[-5:], [0.0, 0.6, 0.6, 2.7, 2.7], atol=0.1)
+
+
+def test_cubics_are_those_of_the_four_points_about_each() -> None:
+    random = np.random.default_rng(0)
+    x = np.cumsum(random.choice([0.5, 1.0, 1.5], 12))
+    y = random.normal(size=12)
+    at = np.sort(random.uniform(x[0], x[-1], 50))
+    for place, value in zip(at, _core.cubics(x, y, at), strict=True):
+        first = min(max(int(np.searchsorted(x, place)) - 2, 0), 8)
+        four = slice(first, first + 4)
+        line = np.polynomial.polynomial.polyfit(x[four] - place, y[four], 3)
+        # Four equations of numbers of order one.
+        assert value == pytest.approx(line[0], abs=1e-10)
+
+
+def test_a_steady_rise_of_speed_is_no_wave_within_cycles() -> None:
+    seconds = np.arange(0.0, 1.0, 5e-6)
+    theta = 9000.0 * seconds + 1500.0 * seconds**2 - 500.0  # 1500 to 2000 rpm
+    turned = np.radians(theta - again.INDEX_DEG)
+    channels = {"t": seconds, "p": again.pressure(theta) / 20e5 + 0.05}
+    channels |= {"wheel": np.sin(60.0 * turned), "mark": np.sin(turned)}
+    scope = read(channels, pulses=60)
+    # Speed rises by 40 rpm in a cycle; what is left is its curvature, some 1 % of that.
+    assert np.ptp(scope.speed, axis=1).max() < 2.0
+    means = scope.speed.mean(axis=1)
+    assert means[-1] - means[0] > 250.0
+
+
+SPIKE, SPIKE_DEG, WIDTH_DEG = 60e5, 30.0, 1.0
+"""A pressure peak that is narrower than any of combustion: height, Pa, place and width at half."""
+
+
+@in_turn("sample_deg", [0.01, 0.05, 0.2])
+def test_a_narrow_peak_survives_within_the_bound_of_averages_and_cubics(sample_deg: float) -> None:
+    sigma = WIDTH_DEG / np.sqrt(8.0 * np.log(2.0))
+    seconds = np.arange(0.0, 0.5, sample_deg / 9000.0)
+    theta = -1000.0 + 9000.0 * seconds
+    away = (theta - SPIKE_DEG + 360.0) % 720.0 - 360.0
+    # Signals without edges: their crossings are known, and with them the crank angle.
+    turned = np.radians(theta - again.INDEX_DEG)
+    channels = {
+        "t": seconds,
+        "p": (again.pressure(theta) + SPIKE * np.exp(-0.5 * (away / sigma) ** 2)) / 20e5 + 0.05,
+        "wheel": np.sin(180.0 * turned),
+        "mark": np.sin(turned),
+    }
+    usual: dict[str, Any] = {"pressure": "p:20bar/V,-1bar", "time": "t", "tdc_deg": TDC}
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", ".*has a spike")  # as it has
+        scope = cp.oscillogram(channels, encoder="wheel", pulses=180, index="mark", **usual)
+    traces = scope.traces[0]
+    smooth = again.pressure(traces.theta_deg)
+    away = traces.theta_deg - SPIKE_DEG
+    error = traces.pressure - smooth - SPIKE * np.exp(-0.5 * (away / sigma) ** 2)
+    # Means over w lose w²/24 of the second derivative, h/σ² at most; cubics between samples d apart
+    # 3/128·d⁴ of the fourth, 3·h/σ⁴. Blocks of half a step of the grid, at most, are averaged.
+    grid = traces.theta_deg[1] - traces.theta_deg[0]
+    block = max(1, int(grid / sample_deg / 2.0)) * sample_deg
+    averaged = (block**2 - sample_deg**2) / 24.0 / sigma**2
+    between = 3.0 / 128.0 * block**4 * 3.0 / sigma**4
+    # Chords of a sine wave of 2°, for the crossings, and the roundings of times.
+    crossing = 1e-4
+    assert abs(error).max() < (averaged + between + crossing) * SPIKE
+    peak = (traces.pressure - smooth).max(axis=1)
+    assert (peak > SPIKE * (1.0 - averaged - between - crossing)).all()
+    assert np.ptp(peak) < (averaged + between + crossing) * SPIKE
 
 
 @in_turn("seed", range(4))

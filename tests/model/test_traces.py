@@ -295,6 +295,10 @@ def test_heat_release_is_the_heat_of_the_burn(burn: tuple[float, ...]) -> None:
     theta = np.arange(-60.0, 100.5, 0.5)
     figures: dict[str, Any] = {"compression_ratio": 10.5, "gamma": gamma}
     released = traces.heat_release(CYLINDER, theta, **figures)
+    # From the first angle on; and heat adds up over parts of the window, to rounding.
+    np.testing.assert_array_equal(released[:, 0], 0.0)
+    later = traces.heat_release(CYLINDER, theta[80:], **figures)
+    np.testing.assert_allclose(released[:, 80:], released[:, 80:81] + later, atol=1e-9 * heat)
     over = np.clip((theta - start) / duration, 0.0, 1.0)
     burnt = heat * (1.0 - np.exp(-6.908 * over ** (m + 1.0)))
     # Pressure between points of 0.2° where a burn begins and ends with a bend; trapezes of 0.5°.
