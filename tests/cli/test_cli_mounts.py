@@ -389,7 +389,7 @@ def test_two_files_stand_beside_each_other(car: Path, tmp_path: Path, capsys: CA
     soft = CAR.replace(mounts=[CAR.mounts[0].replace(stiffness=5e4), *CAR.mounts[1:]])
     soft.save(path := tmp_path / "soft.toml")
     text = printed(capsys, car, path, "--rpm", 850, "--at", "0,0.3,0", "--orders", "0.5,2")
-    both = cp.compare_mounts(CAR, soft, 850, orders=[0.5, 2], at=(0, 0.3, 0))
+    both = cp.compare_mounts(CAR, soft, 850, orders=[0.5, 2], point=(0, 0.3, 0))
     assert both.table.text() in text
     text = printed(capsys, car, path, "--rpm", "800:1000:100", "--misfire", 2)
     one, other = (each.with_misfire(cylinder=2) for each in (CAR, soft))
@@ -400,7 +400,7 @@ def test_a_comparison_has_the_figures_of_both() -> None:
     soft = CAR.replace(
         mounts=[m.replace(stiffness=0.5 * np.array(m.stiffness)) for m in CAR.mounts]
     )
-    both = cp.compare_mounts(CAR, soft, 900, at=(0, 0.3, 0))
+    both = cp.compare_mounts(CAR, soft, 900, point=(0, 0.3, 0))
     first, second = both.before, both.after
     assert first.orders == second.orders
     assert {*CAR.response(900).orders, *soft.response(900).orders} == {*both.orders}

@@ -127,6 +127,27 @@ def test_a_spectrum_has_bars_along_each_axis() -> None:
     np.testing.assert_array_equal(heights.T, expected)
 
 
+def test_a_base_that_moves_is_drawn_over_frequency() -> None:
+    floor = cp.BaseMotion({20.0: (0, 1e-4, 0), 5.0: (0, 1e-4, 0), 10.0: (1e-4, 0, 0)})
+    shaken: Any = MOUNTED.response(base=floor)
+    ax = shaken.plot()
+    (line,) = ax.lines
+    np.testing.assert_array_equal(line.get_xdata(), [5.0, 10.0, 20.0])
+    np.testing.assert_array_equal(line.get_ydata(), shaken.body_force.total.peak)
+    assert ax.get_xlabel() == "frequency, Hz"
+    point = shaken.at((0, 0.3, 0))
+    (line,) = point.plot(quantity="displacement").lines
+    np.testing.assert_array_equal(line.get_ydata(), 1e6 * point.displacement.total.peak)
+    one = shaken.sel(frequency=10.0).plot()
+    assert "10 Hz" in one.get_title(loc="left") + "".join(t.get_text() for t in one.texts)
+    for kind in ("map", "waterfall"):
+        with pytest.raises(cp.InputError, match=rf"kind = '{kind}': is of orders over speed"):
+            shaken.plot(kind=kind)
+    with pytest.raises(cp.InputError, match=r"kind = 'spectrum': give one frequency, as r\.sel"):
+        shaken.plot(kind="spectrum")
+    plt.close("all")
+
+
 def test_unfit_pictures_are_rejected() -> None:
     with pytest.raises(cp.InputError, match=r"kind = 'spectrum': give one speed"):
         RUN_UP.plot(kind="spectrum")

@@ -268,7 +268,7 @@ OBJECTS = Made(
             3000.0, orders=[1, 2], base=cp.BaseMotion({1: (0, 1e-5, 0)}, by="order")
         ),
         "MountComparison": lambda: cp.compare_mounts(
-            MOUNTED, STIFFER, [900.0, 3000.0], at=(0, 0.3, 0), orders=[1, 2]
+            MOUNTED, STIFFER, [900.0, 3000.0], point=(0, 0.3, 0), orders=[1, 2]
         ),
         "MountComparison at one speed": lambda: cp.compare_mounts(
             MOUNTED, STIFFER, 3000.0, orders=[2, 4]

@@ -254,7 +254,7 @@ def _beside(call: Given, powertrain: Powertrain, other: str, rpm: Any) -> Shown:
     for name in cases:
         raise rejected("--case", name, "is not that of --rest")
     point: Any = call.numbers("--at", "m") if call.text("--at") is not None else None
-    both = compare_mounts(powertrain, after, rpm, at=point, **call.chosen())
+    both = compare_mounts(powertrain, after, rpm, point=point, **call.chosen())
     return Shown(both.frames, both)
 
 

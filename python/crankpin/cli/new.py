@@ -10,8 +10,6 @@ import textwrap
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from crankpin._core import InputError
 from crankpin._support import inputs, units
 from crankpin._support.messages import suppressed
@@ -446,7 +444,7 @@ def _stiffness_table(name: str) -> Any:  # noqa: ANN401 - as Mount takes it
         raise inputs.faulty("--mount", f"has {numbers.shape[1]} columns in {name}", hint)
     parts = numbers[:, 1:]
     stiffness = parts[:, ::2] + 1j * parts[:, 1::2]
-    return numbers[:, 0], np.broadcast_to(stiffness, (len(numbers), 3))
+    return numbers[:, 0], stiffness.repeat(3 // stiffness.shape[1], axis=1)
 
 
 def _fields(call: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:

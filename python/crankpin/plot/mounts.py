@@ -227,7 +227,10 @@ def _picture(
             "kind", chosen, "is of orders over speed: the base moves by frequency"
         )
     if several == (chosen == "spectrum"):
-        hint = f"give one, as r.sel({result.dims[0]}=…)" if several else "needs several speeds"
+        hint = "needs several speeds"
+        if several:
+            kind_of = "speed" if "rpm" in result.dims else "frequency"
+            hint = f"give one {kind_of}, as r.sel({result.dims[0]}=…)"
         raise inputs.rejected("kind", chosen, hint)
     ax = axes_or_new(ax)
     chosen_orders = drawn.largest if orders is None else inputs.explicit_half_orders(orders)

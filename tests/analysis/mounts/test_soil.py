@@ -317,7 +317,7 @@ def test_coupled_rocking_and_sliding_has_the_roots_of_the_quadratic() -> None:
 
 
 def test_a_block_under_a_rotating_machine() -> None:
-    """A template of engineers in Peru after Richart, Hall and Woods, and ACI 351.3R-18.
+    """A template of engineers in Peru after Richart, Hall and Woods, for rotating machines.
 
     Printed for B 2 m, L 4 m, h 1.5 m, concrete 2.4 tf/m³, machine 6 tf, V_s 200 m/s, soil
     1.8 tf/m³, ν 0.33: r₀ 1.5958 m, k_z 69 947 tf/m, f_z 22.345 Hz. An edition of it took rocking

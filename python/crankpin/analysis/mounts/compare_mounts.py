@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels
 from crankpin._support.frames import Tabled
+from crankpin._support.parameters import documented
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.comparison import change_of
@@ -22,12 +23,13 @@ if TYPE_CHECKING:
     from crankpin.analysis.quantity import Quantity
 
 
+@documented()
 def compare_mounts(
     before: Powertrain,
     after: Powertrain,
     rpm: ArrayLike,
     *,
-    at: ArrayLike | None = None,
+    point: ArrayLike | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
 ) -> MountComparison:
@@ -41,8 +43,8 @@ def compare_mounts(
         The powertrain after it, or any other: of another engine, body or mounts.
     rpm : array_like
         Crank speeds, rpm: one, or several.
-    at : sequence of float, optional
-        Point of both powertrains (x, y, z) whose velocity is compared too, m.
+    point : sequence of float, optional
+        Place (x, y, z) of both powertrains whose velocity is compared too, m.
     orders : number, sequence of numbers or "auto", default "auto"
         Multiples of crank speed, halves too; by default all that either needs to reach ``rtol``.
 
@@ -84,10 +86,10 @@ def compare_mounts(
             raise inputs.rejected(name, one, "give a crankpin.Powertrain")
     first, second = (one.response(rpm, orders=orders, rtol=rtol) for one in (before, after))
     both = tuple(sorted({*first.orders, *second.orders}))
-    if not isinstance(orders, str):
-        return MountComparison(first, second, _at_point(first, second, at))
+    if not isinstance(orders, str) or not both:
+        return MountComparison(first, second, _at_point(first, second, point))
     first, second = (one.response(rpm, orders=both) for one in (before, after))
-    return MountComparison(first, second, _at_point(first, second, at))
+    return MountComparison(first, second, _at_point(first, second, point))
 
 
 def _at_point(first: MountResponse, second: MountResponse, at: Any) -> Any:  # noqa: ANN401
@@ -119,7 +121,7 @@ class MountComparison(Tabled):
 
     @property
     def rpm(self) -> NDArray[np.float64] | float:
-        """Crank speeds: an array where several were given, else a number."""
+        """Crank speeds, rpm: (n_rpm,), or a number where one was given."""
         return self.before.rpm
 
     @property

@@ -1039,7 +1039,7 @@ class BaseResponse(MountResponse):
 
     @property
     def frequency(self) -> NDArray[np.float64] | float:
-        """Frequencies of a base that moves by frequency, Hz: an array where there are several."""
+        """Frequencies of the base, Hz: (n_frequencies,), or a number where there is one."""
         if not self._stands:
             hint = "the base moves by order of crank speed"
             raise inputs.faulty("frequency", "is undefined", hint, AbsentError)
