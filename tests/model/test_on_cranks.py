@@ -300,6 +300,38 @@ def test_both_pistons_of_a_chamber_do_its_work_on_one_crank() -> None:
     assert torque == pytest.approx(work / (2 * np.pi), rel=1e-4)
 
 
+@in_turn(
+    ("one_crankshaft", "change"),
+    [(False, {"bore": 0.06}), (True, {}), (True, {"bore": 0.06}), (True, {"crank_radius": 0.04})],
+)
+def test_the_least_volume_is_that_of_areas_faces_and_rods(
+    one_crankshaft: bool, change: dict[str, float]
+) -> None:
+    upper = CYLINDER.replace(**change)
+    layout: dict[str, Any] = {"upper": upper, "lead_deg": 30, "strokes": 2}
+    layout |= {"one_crankshaft": True, "distance": None} if one_crankshaft else {}
+    engine = opposed(**layout).with_cycle(cp.Cycle.example("diesel", strokes=2))
+
+    def room(theta: Any) -> Any:  # noqa: ANN401
+        lower = CYLINDER.position(theta - engine.tdc_deg[0]) * 0.08**2
+        above = upper.position(theta - engine.tdc_deg[1]) * (change.get("bore", 0.08) ** 2)
+        return -lower + (above if one_crankshaft else -above)
+
+    fires = engine.firing_deg[0]
+    # Next to it the volume grows by 1e-8 of the stroke's.
+    assert room(fires) < min(room(fires + 0.02), room(fires - 0.02))
+    assert room(fires) <= room(np.arange(0.0, 360.0, 0.5)).min()
+
+
+def test_an_offset_moves_the_chamber_of_a_piston_on_side_rods() -> None:
+    part = CYLINDER.replace(side_rods=True)
+    alone = cp.Engine.inline(part, throws_deg=[0], spacing=0.1, strokes=2)
+    fired = alone.with_cycle(cp.Cycle.example("diesel", strokes=2))
+    with pytest.raises(cp.InputError, match=r"^pin_offset = swept: the chamber at the crank end"):
+        cp.sweep(fired, rpm=RPM, pin_offset=[0.0, 0.001])
+    cp.sweep(fired, rpm=RPM, rod_ratio=[0.2, 0.3])
+
+
 def test_unlike_masses_on_opposed_throws_make_a_force() -> None:
     cylinders = [cp.Cylinder(0.125, 0.625, mass) for mass in (200.0, 180.0)]
     pair = cp.Engine.opposed_throws(cylinders, throws_deg=[0, 180], spacing=0.32)
