@@ -136,6 +136,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Powertrain on a subframe",
         "Powertrain on a receptance",
         "Soil",
+        "VehicleAxes",
         "Subframe",
         "Receptance",
         "PointMotion",
@@ -237,7 +238,7 @@ INPUTS = (
     cp.ValveTiming, cp.LinkRod, cp.LinkRods,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
-    cp.ForceTable, cp.Soil, cp.Locomotive,
+    cp.ForceTable, cp.Soil, cp.Locomotive, cp.VehicleAxes,
 )  # fmt: skip
 
 

@@ -248,6 +248,7 @@ OBJECTS = Made(
         "LoadCases": lambda: MOUNTED.load_cases({"rest": {}, "drive": {"torque": 100.0}}),
         "ForceTable": lambda: cp.force_table(ODD, 600.0, orders=[1, 2]),
         "Soil": lambda: cp.Soil(6e7, 0.3),
+        "VehicleAxes": lambda: cp.VehicleAxes(flywheel="left", origin=(1.4, 0.2, 0.4)),
         "Powertrain of forces": lambda: SHAKEN,
         "MountResponse of forces": lambda: SHAKEN.response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),
@@ -312,7 +313,7 @@ OBJECTS = Made(
 
 UNTABLED = {
     "Cylinder", "LinkRod", "LinkRods", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming",
-    "InertiaTrack", "Soil",
+    "InertiaTrack", "Soil", "VehicleAxes",
     "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip

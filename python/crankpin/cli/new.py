@@ -287,6 +287,7 @@ COMPRESSOR_OPTIONS = (
         action="append",
         help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; once for each",
     ),
+    option("--axes", group=ON_MOUNTS),
     option("--name", help="name of the engine (default: that of its kind)"),
     "--add-load --units",
     option(
@@ -348,6 +349,8 @@ def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
     """Return the engine on the body and mounts of options, if they are given."""
     body, mounts = call.text("--body"), call.text("--mount") or []
     if body is None and not mounts:
+        if (typed := call.text("--axes")) is not None:
+            raise rejected("--axes", typed, "is of --body and --mount: give them")
         return None
     if body is None or not mounts:
         flag, other = ("--mount", "--body") if body is not None else ("--body", "--mount")
@@ -366,7 +369,7 @@ def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
         loss = call.one("--mount", fields[3]) if len(fields) > 3 else 0.0
         place = call.listed("--mount", fields[1], "m")
         carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
-    return Powertrain(engine, rigid, carried)
+    return Powertrain(engine, rigid, carried, vehicle=call.vehicle())
 
 
 def _fields(call: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:

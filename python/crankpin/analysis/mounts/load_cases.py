@@ -40,6 +40,9 @@ class LoadCases(AtRest):
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return np.stack([state.read(quantity) for state in self.states.values()])
 
+    def _turned(self, quantity: str, values: NDArray[Any]) -> NDArray[Any]:
+        return values  # as those of the states are
+
     def sel(self, *, case: str) -> StaticState:  # type: ignore[override] # of its one dimension
         """Return the state at rest under one case.
 
