@@ -389,21 +389,3 @@ def test_a_file_is_written_from_figures_in_the_axes_of_a_vehicle(
 def test_wrong_axes_are_named(car: Path, axes: str, words: str, capsys: CAPTURE) -> None:
     assert words in failed(capsys, car, "--axes", axes)
     assert "in the axes" in failed(capsys, car, "--axes", AXES, "--robustness", "0.1")
-
-
-def test_snubbers_are_written_and_read(tmp_path: Path, capsys: CAPTURE) -> None:
-    path = tmp_path / "new.toml"
-    typed = ["new", "i4", "--body", "148:0,0,0.1:8,7.5,5", "-o", str(path)]
-    typed += ["--mount", "a:0.3,0,0:1e5:0.1:gap=7mm:snubber=9e5"]
-    typed += ["--mount", "b:-0.3,0,0:1e5:gap=1mm,2mm,3mm: snubber = 1e6"]
-    typed += ["--mount", "c:0,0,0.7:1e5:snubber=1e5,2e5,3e5,4e5,5e5,6e5"]
-    assert main(typed) == 0
-    capsys.readouterr()
-    a, b, c = cp.Powertrain.load(path).mounts
-    assert a == cp.Mount("a", (0.3, 0, 0), 1e5, loss_factor=0.1, gap=7e-3, snubber_stiffness=9e5)
-    assert b == cp.Mount("b", (-0.3, 0, 0), 1e5, gap=(1e-3, 2e-3, 3e-3), snubber_stiffness=1e6)
-    sides = [(1e5, 2e5), (3e5, 4e5), (5e5, 6e5)]
-    assert c == cp.Mount("c", (0, 0, 0.7), 1e5, snubber_stiffness=sides)
-    wrong = [*typed[:-1], "c:0,0,0.7:1e5:gap=1,2", "--force"]
-    assert main(wrong) == 2
-    assert "give one number, three or six of gap" in capsys.readouterr().err

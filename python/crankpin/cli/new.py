@@ -283,11 +283,9 @@ COMPRESSOR_OPTIONS = (
     option(
         "--mount",
         group=ON_MOUNTS,
-        metavar="NAME:X,Y,Z:K[:LOSS][:gap=GAP:snubber=K]",
+        metavar="NAME:X,Y,Z:K[:LOSS]",
         action="append",
-        help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; gap, m, and "
-        "stiffness of snubbers, N/m, one number, three, or six, against and along each axis; once "
-        "for each",
+        help="place, m, stiffness, N/m, or K,K,K along x, y and z, and loss factor; once for each",
     ),
     option("--axes", group=ON_MOUNTS),
     option("--name", help="name of the engine (default: that of its kind)"),
@@ -365,33 +363,13 @@ def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
     )
     carried = []
     for mount in mounts:
-        plain, snubbers = _snubbers(call, mount)
-        fields = _fields(call, "--mount", plain, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
+        fields = _fields(call, "--mount", mount, "NAME:X,Y,Z:K or NAME:X,Y,Z:K:LOSS", 3, 4)
         stiffness = call.listed("--mount", fields[2])
         along = stiffness if len(stiffness) > 1 else stiffness[0]
         loss = call.one("--mount", fields[3]) if len(fields) > 3 else 0.0
         place = call.listed("--mount", fields[1], "m")
-        carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss, **snubbers))
+        carried.append(Mount(fields[0].strip(), place, along, loss_factor=loss))
     return Powertrain(engine, rigid, carried, vehicle=call.vehicle())
-
-
-SNUBBER_FIELDS = {"gap": ("gap", "m"), "snubber": ("snubber_stiffness", "")}
-"""Field of ``--mount`` → argument of :class:`Mount` of both sides of each axis, and its unit."""
-
-
-def _snubbers(call: Given, text: str) -> tuple[str, dict[str, Any]]:
-    """Return what ``--mount`` has besides snubbers, and the figures of these."""
-    parts, figures = text.split(":"), dict[str, Any]()
-    for part in [part for part in parts if part.partition("=")[0].strip() in SNUBBER_FIELDS]:
-        parts.remove(part)
-        key, _, value = part.partition("=")
-        argument, unit = SNUBBER_FIELDS[key.strip()]
-        numbers = call.listed("--mount", value, unit)
-        if len(numbers) not in (1, 3, 6):
-            raise rejected("--mount", text, f"give one number, three or six of {key.strip()}")
-        pairs = [numbers[k : k + 2] for k in (0, 2, 4)]
-        figures[argument] = pairs if len(numbers) == 6 else numbers * (3 // len(numbers))
-    return ":".join(parts), figures
 
 
 def _fields(call: Given, flag: str, text: str, form: str, *counts: int) -> list[str]:
