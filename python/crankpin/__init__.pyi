@@ -62,5 +62,6 @@ from crankpin.model.soil import Soil as Soil
 from crankpin.model.supports import Receptance as Receptance
 from crankpin.model.supports import Subframe as Subframe
 from crankpin.model.traces import Traces as Traces
+from crankpin.model.vehicle_axes import VehicleAxes as VehicleAxes
 
 __all__: list[str]  # noqa: PYI035 - the names above

@@ -421,3 +421,58 @@ def test_a_comparison_has_the_figures_of_both() -> None:
         cp.compare_mounts(CAR, soft, 900).change("velocity")
     with pytest.raises(cp.InputError, match=r"after = 3: give a crankpin\.Powertrain"):
         cp.compare_mounts(CAR, 3, 900)  # type: ignore[arg-type]
+
+
+# --- axes of a vehicle ---------------------------------------------------------------------------
+
+AXES = "back,right,up:flywheel=left:origin=1450mm,210mm,360mm:incline=-12"
+VEHICLE = cp.VehicleAxes("back, right, up", "left", (1.45, 0.21, 0.36), -12)
+
+
+def test_axes_of_a_vehicle_are_those_of_the_library(car: Path, capsys: CAPTURE) -> None:
+    turned = CAR.in_axes(VEHICLE)
+    text = printed(capsys, car, "--axes", AXES)
+    for table in (turned.modes().table, turned.axes().table, turned.static().table):
+        assert table.text() in text
+    text = printed(capsys, car, "--axes", AXES, "--case", "braking:acceleration=8,0,0")
+    assert turned.load_cases({"braking": {"acceleration": (8, 0, 0)}}).table.text() in text
+    motion = turned.response(800).at((1.4, 0.2, 0.7))
+    text = printed(capsys, car, "--axes", AXES, "--rpm", 800, "--at", "1400mm,200mm,700mm")
+    assert motion.table.text() in text
+
+
+def test_a_file_is_written_from_figures_in_the_axes_of_a_vehicle(
+    tmp_path: Path, capsys: CAPTURE
+) -> None:
+    mounts = {"a": (1.2, 0.3, 0.4), "b": (1.6, 0.2, 0.3), "c": (1.4, -0.4, 0.5)}
+    typed = ["--body", "148:1432mm,120mm,402mm:8,7.5,5", "--axes", AXES]
+    for name, at in mounts.items():
+        typed += ["--mount", f"{name}:{','.join(map(str, at))}:100000,200000,300000"]
+    path = tmp_path / "new.toml"
+    assert main(["new", "i4", *typed, "-o", str(path)]) == 0
+    capsys.readouterr()
+    whole = cp.Powertrain(
+        cp.Powertrain.load(path).engine,
+        cp.RigidBody(148, (1.432, 0.12, 0.402), (8, 7.5, 5)),
+        [cp.Mount(name, at, (1e5, 2e5, 3e5)) for name, at in mounts.items()],
+        vehicle=VEHICLE,
+    )
+    loaded = cp.Powertrain.load(path)
+    assert loaded.mounts == whole.in_axes(None).mounts
+    assert loaded.body == whole.in_axes(None).body
+    assert main(["new", "i4", "--axes", AXES]) == 2
+    assert "is of --body and --mount" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("axes", "words"),
+    [
+        ("back,right", "directions = 'back,right'"),
+        ("back,right,up:flywheel=up", "flywheel = 'up'"),
+        ("back,right,up:fly=left", "give X,Y,Z, and of flywheel, origin, incline"),
+        ("back,right,up:origin=1,2", "origin = "),
+    ],
+)
+def test_wrong_axes_are_named(car: Path, axes: str, words: str, capsys: CAPTURE) -> None:
+    assert words in failed(capsys, car, "--axes", axes)
+    assert "in the axes" in failed(capsys, car, "--axes", AXES, "--robustness", "0.1")

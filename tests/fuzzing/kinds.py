@@ -33,6 +33,7 @@ MOUNTS = (
 )
 LOAD = cp.PeriodicLoad("pump", on="both", force={2: 8.0}, torque={0: 3.0})
 POWERTRAIN = cp.Powertrain(ENGINE, cp.RigidBody(150, (0, 0.06, 0.1), (7, 8, 4.5)), MOUNTS)
+VEHICLE = cp.VehicleAxes(flywheel="left", origin=(1.4, 0.2, 0.4))
 THETA = np.arange(0.0, 720.0, 10.0)
 SHAKER = cp.Actuator(
     "shaker", (0.1, 0.2, 0.1), (0, 1, 0), force=50, mass=2, stroke=0.002, resonance=4,
@@ -397,6 +398,13 @@ KINDS: dict[str, list[Any]] = {
     "cases": [{"idle": {}, "drive": {"torque": 100.0, "acceleration": (0, 0, 3)}}],
     "case": ["drive"],
     "acceleration": [(0.0, 0.0, 8.0)],
+    "vehicle": [VEHICLE],
+    "directions": ["back, right, up"],
+    "flywheel": ["left"],
+    "VehicleAxes.origin": [(1.4, 0.2, 0.4)],
+    "incline_deg": [12.0],
+    "to.of": [(1.0, 0.2, 0.3)],
+    "from.of": [(1.0, 0.2, 0.3)],
     "PeriodicLoad.on": ["both"],
     "PeriodicLoad.force": [{2: 8.0}],
     "PeriodicLoad.torque": [{0: 3.0}],

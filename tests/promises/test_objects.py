@@ -137,6 +137,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Powertrain on a subframe",
         "Powertrain on a receptance",
         "Soil",
+        "VehicleAxes",
         "Subframe",
         "Receptance",
         "PointMotion",
@@ -238,7 +239,7 @@ INPUTS = (
     cp.ValveTiming, cp.LinkRod, cp.LinkRods,
     cp.PortTiming, cp.Actuator, cp.InertiaTrack, cp.Mount,
     cp.RigidBody, cp.Powertrain, cp.Subframe, cp.Receptance, cp.PeriodicLoad,
-    cp.ForceTable, cp.BaseMotion, cp.Soil, cp.Locomotive,
+    cp.ForceTable, cp.BaseMotion, cp.Soil, cp.Locomotive, cp.VehicleAxes,
 )  # fmt: skip
 
 

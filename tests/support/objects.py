@@ -273,6 +273,7 @@ OBJECTS = Made(
         "MountComparison at one speed": lambda: cp.compare_mounts(
             MOUNTED, STIFFER, 3000.0, orders=[2, 4]
         ),
+        "VehicleAxes": lambda: cp.VehicleAxes(flywheel="left", origin=(1.4, 0.2, 0.4)),
         "Powertrain of forces": lambda: SHAKEN,
         "MountResponse of forces": lambda: SHAKEN.response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),
@@ -337,7 +338,7 @@ OBJECTS = Made(
 
 UNTABLED = {
     "Cylinder", "LinkRod", "LinkRods", "PortTiming", "Rod", "Shaft", "Unbalance", "ValveTiming",
-    "InertiaTrack", "Soil",
+    "InertiaTrack", "Soil", "VehicleAxes",
     "Mount", "RigidBody", "Actuator", "Subframe", "Receptance",
     "PeriodicLoad",
 }  # fmt: skip

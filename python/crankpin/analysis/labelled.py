@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Table
     from crankpin.analysis.request import Request
     from crankpin.model.engine import Engine
+    from crankpin.model.vehicle_axes import VehicleAxes
 
 
 class Labelled(Tabled):
@@ -255,7 +256,7 @@ class Labelled(Tabled):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute one of the arrays of a quantity; from its values where the core has no other."""
         if what == VALUES:
-            return self._values(quantity)
+            return self._turned(quantity, self._values(quantity))
         values, dims = self.read(quantity), self._dims(quantity)
         if what == "mean_magnitude":
             return _mean(self.read(quantity, "magnitude"), np.asarray(self.coords["theta_deg"]))
@@ -265,6 +266,25 @@ class Labelled(Tabled):
             return self._in_space(quantity, what)
         phasors = np.moveaxis(values, dims.index("order"), -1)
         return total_peaks(self._orders, phasors) if what == "total_peak" else np.abs(values)
+
+    @property
+    def _vehicle(self) -> VehicleAxes | None:
+        """Axes of the vehicle in which vectors are; None for the engine's, in which they come."""
+        return None
+
+    def _turned(self, quantity: str, values: NDArray[Any]) -> NDArray[Any]:
+        """Return values in the axes of a vehicle, if they are along x, y and z or about them."""
+        vehicle, kind = self._vehicle, self._kind(quantity)
+        if vehicle is None:
+            return values
+        if kind.axes == ("x", "y", "z"):
+            about = kind.components[0].startswith("about")
+            return vehicle._vectors(values, about=about)
+        if kind.dims[-1:] == ("component",) and not kind.real:
+            both = (values[..., :3], values[..., 3:])
+            turned = (vehicle._vectors(part, about=k > 0) for k, part in enumerate(both))
+            return np.concatenate([*turned], axis=-1)
+        return values
 
     def _in_space(self, quantity: str, what: str) -> NDArray[np.float64]:
         """Compute peaks or rms values of phasors along x, y and z."""

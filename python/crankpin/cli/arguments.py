@@ -20,6 +20,7 @@ from crankpin.cli.options import OPTIONS, rejected
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.engine import Engine
 from crankpin.model.loads import PeriodicLoad, of_rows
+from crankpin.model.vehicle_axes import VehicleAxes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -255,6 +256,25 @@ class Given:
         if len(point) not in (1, 3):
             raise rejected("--about", self.text("--about"), "give X,Y,Z or Z, m")
         return balance.about(point if len(point) == 3 else point[0])
+
+    def vehicle(self) -> VehicleAxes | None:
+        """Return the axes of ``--axes``, if they are given."""
+        text = self.text("--axes")
+        if text is None:
+            return None
+        directions, *fields = (part.strip() for part in text.split(":"))
+        arguments: dict[str, Any] = {}
+        for field in fields:
+            key, _, value = (side.strip() for side in field.partition("="))
+            if key == "flywheel":
+                arguments[key] = value
+            elif key == "origin":
+                arguments[key] = self.listed("--axes", value, "m")
+            elif key == "incline":
+                arguments["incline_deg"] = self.one("--axes", value)
+            else:
+                raise rejected("--axes", text, "give X,Y,Z, and of flywheel, origin, incline")
+        return VehicleAxes(directions, **arguments)
 
     def engine(self, command: str) -> Engine:
         """Return the engine of a command that takes one."""

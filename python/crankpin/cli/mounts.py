@@ -94,7 +94,7 @@ def _powertrain(call: Given) -> Powertrain:
         metavar="CYLINDER",
         help="number of a cylinder that does not fire",
     ),
-    "--orders --rtol",
+    "--axes --orders --rtol",
     option(
         "--at",
         argument="point",
@@ -281,6 +281,8 @@ def _changed(call: Given, powertrain: Powertrain) -> tuple[Powertrain, dict[str,
     """Return the powertrain with a misfire and at rest as options say, and other load cases."""
     if call.text("--misfire") is not None:
         powertrain = powertrain.with_misfire(call.whole("--misfire"))
+    if (vehicle := call.vehicle()) is not None:
+        powertrain = powertrain.in_axes(vehicle)
     cases = _cases(call)
     if (rest := call.text("--rest")) is not None:
         if rest not in cases:

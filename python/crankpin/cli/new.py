@@ -310,6 +310,7 @@ COMPRESSOR_OPTIONS = (
         help="place, m, stiffness, N/m, or K,K,K along its axes, and loss factor; once for each. "
         f"Fields, one number or one for each axis: {', '.join(MOUNT_FIELDS)}",
     ),
+    option("--axes", group=ON_MOUNTS),
     option("--name", help="name of the engine (default: that of its kind)"),
     "--add-load --units",
     option(
@@ -377,11 +378,15 @@ def _on_mounts(call: Given, engine: Engine) -> Powertrain | None:
     """Return the engine on the body and mounts of options, if they are given."""
     body, mounts = call.text("--body"), call.text("--mount") or []
     if body is None and not mounts:
+        if (typed := call.text("--axes")) is not None:
+            raise rejected("--axes", typed, "is of --body and --mount: give them")
         return None
     if body is None or not mounts:
         flag, other = ("--mount", "--body") if body is not None else ("--body", "--mount")
         raise inputs.faulty(flag, "is left out", f"a body on mounts needs it, beside {other}")
-    return Powertrain(engine, _body(call, body), [_mount(call, text) for text in mounts])
+    return Powertrain(
+        engine, _body(call, body), [_mount(call, text) for text in mounts], vehicle=call.vehicle()
+    )
 
 
 def _body(call: Given, text: str) -> RigidBody:

@@ -78,6 +78,14 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "grows from that speed on by its square; rpm=1000/2000 force=2:8/9 is a table); once for "
         "each",
     },
+    "--axes": {
+        "metavar": "X,Y,Z:FIELD=VALUE:…",
+        "help": "axes of places and directions, such as "
+        "'back,right,up:flywheel=left:origin=1450mm,0,360mm:incline=12': directions of x, y and z "
+        "in the vehicle, side of the flywheel, place of the engine's origin, m, and degrees by "
+        "which the engine is turned about its crank, counter-clockwise seen from the flywheel "
+        "(default: the engine's)",
+    },
     "--rpm": {
         "default": "3000",
         "help": "crank speed (default: %(default)s, of a preset that turns slowly its own)",

@@ -249,7 +249,8 @@ def _axes(
         Properties of the lines of both axes.
     """
     panels = make_panels(ax, figure, 3, 1, row_height=0.6)
-    powertrain = result.powertrain
+    powertrain = result.powertrain.in_axes(None)  # as the views are
+    result = result if powertrain is result.powertrain else powertrain.axes(result.at_frequency)
     cg = np.array(powertrain.body.cg)
     places = {mount.name: np.array(mount.at) for mount in powertrain.mounts}
     corners = [places[name] for name in powertrain.static().support_polygon]

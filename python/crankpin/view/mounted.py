@@ -45,6 +45,7 @@ def figures(
         powertrain has a flexible support.
     """
     at = speed(rpm)
+    powertrain._require_engine_axes("page")
     powertrain._core.require_ground()
     engine = powertrain._require_engine("powertrain")
     if powertrain.forces:

@@ -173,7 +173,16 @@ REJECTED = {"designs", "design_mounts", "save_html"}
 """Readings of mounts on what does not move alone."""
 ON_RECEPTANCES = {"response", "sweep"}
 """Readings that need no modes of the support."""
-NOT_READINGS = {"load", "save", "with_support", "replace", "with_misfire", "view", *dir(Framed)}
+NOT_READINGS = {
+    "load",
+    "save",
+    "with_support",
+    "in_axes",
+    "replace",
+    "with_misfire",
+    "view",
+    *dir(Framed),
+}
 """Methods that compute no figure; a view is the page of `save_html` in a notebook."""
 
 

@@ -237,6 +237,7 @@ def design_mounts(
     True
     """
     question = Question(powertrain, by, vary, bounds, ratio, roll_frequency, modes_between, rpm)
+    powertrain._require_engine_axes("design_mounts")
     count = inputs.whole("starts", starts, 1)
     if count > MOST_STARTS:
         raise inputs.rejected("starts", count, f"give {MOST_STARTS} at most")

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import RESTING
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.mounts import static_state
+from crankpin.analysis.mounts.response import _require_subframe
 from crankpin.analysis.mounts.static_state import AtRest, StaticState
 
 if TYPE_CHECKING:
@@ -37,8 +39,21 @@ class LoadCases(AtRest):
         """``case``: the names."""
         return {"case": tuple(self.states)}
 
+    @property
+    def _names(self) -> tuple[str, ...]:
+        below = self._own_coords["subframe_mount"]
+        return tuple(name for name in RESTING if below or name != "ground_preload")
+
+    def _check(self, quantity: str) -> None:
+        if quantity == "ground_preload":
+            _require_subframe(self.powertrain, quantity)
+        super()._check(quantity)
+
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return np.stack([state.read(quantity) for state in self.states.values()])
+
+    def _turned(self, quantity: str, values: NDArray[Any]) -> NDArray[Any]:
+        return values  # as those of the states are
 
     def sel(self, *, case: str) -> StaticState:  # type: ignore[override] # of its one dimension
         """Return the state at rest under one case.
@@ -63,6 +78,8 @@ class LoadCases(AtRest):
     @property
     def _forces(self) -> NDArray[np.float64]:
         """Force of each mount, and of those of a subframe, on what carries it."""
+        if "ground_preload" not in self._names:
+            return self.read("preload")
         return np.concatenate([self.read("preload"), self.read("ground_preload")], axis=1)
 
     @property

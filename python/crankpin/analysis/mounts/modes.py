@@ -15,9 +15,12 @@ from crankpin.analysis.labelled import Labelled
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from numpy.typing import NDArray
+
     from crankpin._support.frames import Frames
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.quantity import Quantity
+    from crankpin.model.vehicle_axes import VehicleAxes
 
 COORDINATES = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 """Names of the motions along z, x and y, and about z, x and y."""
@@ -61,7 +64,7 @@ class MountModes(Labelled):
             "purity": purity, "loss_factor": loss, "damped_frequency": damped,
             "subframe_share": energy[6:].sum(axis=0),
         }  # fmt: skip
-        self.__dict__.update(_arrays=arrays, groups=groups, free=tuple(free))
+        self.__dict__.update(_arrays=arrays, groups=groups, free=self.powertrain._free(free))
         super().__post_init__()
 
     @property
@@ -150,7 +153,8 @@ class MountModes(Labelled):
 
     def _title(self, of: str) -> str:
         at = "" if self.at_frequency is None else f" at {self.at_frequency:g} Hz"
-        return f"{self.powertrain._title}: {of}; dynamic stiffness{at}"
+        along = "" if self.powertrain.vehicle is None else " along and about the engine's axes"
+        return f"{self.powertrain._title}: {of}{along}; dynamic stiffness{at}"
 
     def _by_mode(self) -> list[Column]:
         return [
@@ -253,7 +257,8 @@ class RollAxes(Labelled):
             )
             named |= {"pitch": pitch, "roll_stiffness": 1.0 / compliance}
             named |= {"cg_distance": float(np.linalg.norm(from_cg))}
-            named |= {"elastic_centre": None if centre is None else tuple(centre)}
+            turned = self._vehicle.from_engine if self._vehicle is not None else tuple
+            named |= {"elastic_centre": None if centre is None else turned(centre)}
             values |= {f"{before}{name}": value for name, value in named.items()}
             arrays |= {f"{before}elastic": direction, f"{before}elastic_foot": foot}
             arrays |= {f"{before}elastic_offset": from_cg}
@@ -263,6 +268,15 @@ class RollAxes(Labelled):
     @property
     def _own_coords(self) -> Mapping[str, Any]:
         return {"mount": self.powertrain.names}
+
+    @property
+    def _vehicle(self) -> VehicleAxes | None:
+        return self.powertrain.vehicle
+
+    def _turned(self, quantity: str, values: NDArray[Any]) -> NDArray[Any]:
+        if self._vehicle is not None and quantity.endswith("_foot"):
+            return np.array(self._vehicle.from_engine(values))
+        return super()._turned(quantity, values)
 
     @property
     def elastic(self) -> Quantity[np.float64]:

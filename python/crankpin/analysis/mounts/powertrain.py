@@ -30,14 +30,16 @@ from crankpin.model.engine import Engine
 from crankpin.model.forces import ForceTable
 from crankpin.model.mounts import Mount, RigidBody
 from crankpin.model.supports import Receptance, Subframe, Support
+from crankpin.model.vehicle_axes import VehicleAxes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
 
     from numpy.typing import ArrayLike
 
     from crankpin._core import Engine as CoreEngine
+    from crankpin._core import InputError
     from crankpin._support.inputs import Orders
     from crankpin.analysis.mounts.active import Cancellation
     from crankpin.analysis.mounts.design_responses import DesignResponses
@@ -49,6 +51,21 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.static_state import StaticState
     from crankpin.model.actuators import Actuator
     from crankpin.view.widget import PowertrainWidget
+
+
+def _of_receptance(support: Receptance) -> InputError:
+    hint = "a receptance is measured along the engine's axes: give body and mounts in them"
+    return inputs.rejected("support", support, hint)
+
+
+def _in_engine_axes(vehicle: object, body: RigidBody, mounts: list[Any], support: object) -> Any:  # noqa: ANN401
+    """Return body, mounts and subframe in the engine's axes, of those of a vehicle."""
+    if not isinstance(vehicle, VehicleAxes):
+        raise inputs.rejected("vehicle", vehicle, "give a crankpin.VehicleAxes")
+    if isinstance(support, Receptance):
+        raise _of_receptance(support)
+    below = None if support is None else vehicle.to_engine(support)
+    return vehicle.to_engine(body), [vehicle.to_engine(mount) for mount in mounts], below
 
 
 class Powertrain(Framed, Input):
@@ -79,6 +96,11 @@ class Powertrain(Framed, Input):
         snubbers: modes, response and all else of motion count the stiffness of those that act
         there, the tangent stiffness. By default it rests under gravity; a receptance counts as
         firm ground here.
+    vehicle : VehicleAxes, optional
+        Axes of body, mounts, support and ``rest``, and of whatever else has places or directions:
+        arguments and results. By default the engine's: x to the right seen from the flywheel and y
+        up from the crank's axis, z along it. Tables of forces are in the engine's in any case, and
+        so are kinetic energies and shapes of modes.
 
     Raises
     ------
@@ -109,6 +131,7 @@ class Powertrain(Framed, Input):
     support: Support | None
     forces: tuple[ForceTable, ...]
     rest: Mapping[str, Any] | None
+    vehicle: VehicleAxes | None
 
     def __init__(
         self,
@@ -118,6 +141,7 @@ class Powertrain(Framed, Input):
         support: Support | None = None,
         forces: ForceTable | Iterable[ForceTable] = (),
         rest: Mapping[str, Any] | None = None,
+        vehicle: VehicleAxes | None = None,
     ) -> None:
         listed = [forces] if isinstance(forces, ForceTable) else forces
         tables = inputs.items("forces", listed, "give a list of crankpin.ForceTable")
@@ -134,19 +158,28 @@ class Powertrain(Framed, Input):
         for k, mount in enumerate(entries):
             if not isinstance(mount, Mount):
                 raise inputs.rejected(f"mounts[{k}]", mount, "give a crankpin.Mount")
-        figures = [mount._figures for mount in entries]
         carrier: object = support
         if not isinstance(carrier, Subframe | Receptance | None):
             hint = "give a crankpin.Subframe or a crankpin.Receptance"
             raise inputs.rejected("support", carrier, hint)
-        below = None if support is None else support._figures
         texts = ", ".join(table._text() for table in tables)
         self.__dict__.update(engine=engine, body=body, mounts=tuple(entries), support=support)
-        case = static_state.UPRIGHT
+        turned: Any = (body, entries, carrier)
+        self.__dict__.update(vehicle=vehicle, rest=None)
+        if vehicle is not None:
+            turned = _in_engine_axes(vehicle, body, entries, carrier)
+        of_body, of_mounts, below = turned
+        upright = case = static_state.upright(vehicle)
         if rest is not None:
             case = static_state.named_case(self, "rest", rest)
-            rest = None if case == static_state.UPRIGHT else MappingProxyType(case._asdict())
-        core = _core.Powertrain(body._figures, figures, below, f"[{texts}]", case.figures)
+            rest = None if case == upright else MappingProxyType(case._asdict())
+        core = _core.Powertrain(
+            of_body._figures,
+            [mount._figures for mount in of_mounts],
+            None if below is None else below._figures,
+            f"[{texts}]",
+            case.figures(vehicle),
+        )
         self.__dict__.update(forces=tuple(tables), rest=rest, _powertrain=core)
 
     @property
@@ -212,7 +245,88 @@ class Powertrain(Framed, Input):
     @property
     def _carried(self) -> str:
         """Flexible support of the mounts, in titles."""
-        return "" if self.support is None else f" and a {type(self.support).__name__.lower()}"
+        on = "" if self.support is None else f" and a {type(self.support).__name__.lower()}"
+        return on if self.vehicle is None else f"{on} ({self.vehicle._words})"
+
+    def in_axes(self, vehicle: VehicleAxes | None) -> Self:
+        """Return the same powertrain with figures and results in other axes.
+
+        Parameters
+        ----------
+        vehicle : VehicleAxes or None
+            The axes; None for the engine's.
+
+        Returns
+        -------
+        Powertrain
+            The same, of which body, mounts, subframe and ``rest`` are turned.
+
+        Raises
+        ------
+        InputError
+            If a receptance carries the mounts.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> mounts = [
+        ...     cp.Mount(name, at=at, stiffness=2e5)
+        ...     for name, at in [("a", (0.3, 0, 0)), ("b", (-0.3, 0, 0)), ("c", (0, 0, 0.7))]
+        ... ]
+        >>> body = cp.RigidBody(mass=160, cg=(0.03, 0.1, 0.2), inertia=(7, 8, 4.5))
+        >>> p = cp.Powertrain(cp.Engine.preset("i4"), body, mounts)
+        >>> seen = p.in_axes(cp.VehicleAxes(flywheel="left", origin=(1.5, 0.3, 0.4)))
+        >>> seen.body.cg, seen.static().preload[:, 2].round(4)
+        ((1.53, 0.1, 0.5), array([-638.8332, -481.9268, -448.304 ]))
+        >>> seen.in_axes(None) == p
+        True
+        """
+        target: object = vehicle
+        if not isinstance(target, VehicleAxes | None):
+            raise inputs.rejected("vehicle", target, "give a crankpin.VehicleAxes")
+        plain = self
+        if self.vehicle is not None:
+            plain = self._turned(self.vehicle.to_engine, self.vehicle, inverse=True, vehicle=None)
+        if vehicle is None or vehicle == self.vehicle:
+            return plain if vehicle is None else self
+        return plain._turned(vehicle.from_engine, vehicle, inverse=False, vehicle=vehicle)
+
+    def _turned(
+        self,
+        move: Callable[[Any], Any],
+        by: VehicleAxes,
+        *,
+        inverse: bool,
+        vehicle: VehicleAxes | None,
+    ) -> Self:
+        """Return the same in the axes of what moves places, or of none."""
+        if isinstance(self.support, Receptance):
+            raise _of_receptance(self.support)
+        case = self.rest or static_state.upright(self.vehicle)._asdict()
+        rest = {
+            name: tuple(by._vectors(case[name], inverse=inverse).tolist())
+            for name in ("gravity", "acceleration", "thrust")
+        }
+        place = move(case["thrust_at"]) if any(case["thrust"]) else static_state.STILL
+        rest |= {"torque": case["torque"], "thrust_at": place}
+        return self.replace(
+            body=move(self.body),
+            mounts=[move(mount) for mount in self.mounts],
+            support=None if self.support is None else move(self.support),
+            rest=rest,
+            vehicle=vehicle,
+        )
+
+    def _free(self, motions: Iterable[str]) -> tuple[str, ...]:
+        """Return motions that no mount resists, in words that say in which axes they are."""
+        axes = "" if self.vehicle is None else ", in the engine's axes"
+        return tuple(f"{motion}{axes}" for motion in motions)
+
+    def _require_engine_axes(self, name: str) -> None:
+        """Raise an error where figures are in the axes of a vehicle."""
+        if self.vehicle is not None:
+            hint = "it takes the engine's axes: take powertrain.in_axes(None)"
+            raise inputs.faulty(name, f"is undefined in the axes {self.vehicle._words}", hint)
 
     @property
     def table(self) -> Table:
@@ -246,7 +360,7 @@ class Powertrain(Framed, Input):
         torque: float | Literal["engine"] = 0.0,
         *,
         gear_ratio: float = 1.0,
-        gravity: ArrayLike = static_state.GRAVITY,
+        gravity: ArrayLike | None = None,
         acceleration: ArrayLike = static_state.STILL,
         rpm: float = 1000.0,
         thrust: ArrayLike = static_state.STILL,
@@ -266,11 +380,11 @@ class Powertrain(Framed, Input):
             the crank; below zero if it turns against it. 1 for a bare engine; the whole ratio of
             gearbox and final drive where both are on the same mounts, as of a transverse
             powertrain: 10 to 15 in first gear.
-        gravity : sequence of float, default (0.0, -9.80665, 0.0)
-            Acceleration of gravity in the engine's axes, m/s². Of an inclined engine it has another
-            direction.
+        gravity : sequence of float, optional
+            Acceleration of gravity, m/s²; by default that of ``rest``, which is 9.80665 along −y,
+            or down in the axes of a ``vehicle``. Of an inclined engine it has another direction.
         acceleration : sequence of float, default (0.0, 0.0, 0.0)
-            Acceleration of the vehicle in the engine's axes, m/s²: of braking against the motion.
+            Acceleration of the vehicle, m/s²: of braking against the motion.
         rpm : float, default 1000.0
             Crank speed at which the mean torque of the engine is read, rpm.
         thrust : sequence of float, default (0.0, 0.0, 0.0)
@@ -465,6 +579,8 @@ class Powertrain(Framed, Input):
         moving: object = base
         if not isinstance(moving, BaseMotion | None):
             raise inputs.rejected("base", moving, "give a crankpin.BaseMotion")
+        if base is not None:
+            self._require_engine_axes("base")
         if base is not None and base.by == "frequency":
             hint = "leave it out: the base moves by frequency"
             for name, value, default in (("rpm", rpm, None), ("rtol", rtol, None)):
@@ -485,6 +601,7 @@ class Powertrain(Framed, Input):
         **options: Any,  # noqa: ANN401
     ) -> Cancellation:
         """Return a cancellation, for responses, which it is made of."""
+        self._require_engine_axes("cancel")
         return active.cancel(response, *given, **options)
 
     def velocity_feedback(
@@ -517,6 +634,7 @@ class Powertrain(Framed, Input):
             If it is no inertial actuator, nothing damps a mode that it drives, a table of stiffness
             does not reach to the frequencies that decide, or a receptance carries the mounts.
         """
+        self._require_engine_axes("velocity_feedback")
         return feedback.velocity_feedback(self, actuator, gain)
 
     @documented(response)
@@ -580,6 +698,7 @@ class Powertrain(Framed, Input):
         >>> f.force.dims, f.force.shape, 0 < f.best() < 0.1
         (('factor', 'rpm', 'receiver'), (3, 41, 1), True)
         """
+        self._require_engine_axes("sweep")
         return swept.sweep(
             self, rpm, factor=factor, engines=engines, receivers=receivers, orders=orders, rtol=rtol
         )
@@ -646,6 +765,7 @@ class Powertrain(Framed, Input):
         >>> d.body_force.shape, d.powertrain_of(999).mounts[2].stiffness
         ((1000, 1, 3), (400000.0, 400000.0, 400000.0))
         """
+        self._require_engine_axes("designs")
         return many.designs(
             self,
             rpm,
@@ -713,6 +833,7 @@ class Powertrain(Framed, Input):
         >>> (r.frequency_bounds[0] / r.frequency).round(12)
         array([0.9, 0.9, 0.9, 0.9, 0.9, 0.9])
         """
+        self._require_engine_axes("robustness")
         if isinstance(stiffness, Mapping):
             for name in stiffness:
                 inputs.one_of("stiffness", name, self.names)
@@ -885,7 +1006,7 @@ class Powertrain(Framed, Input):
     def save(self, path: str | Path) -> None:
         """Write engine, body and mounts to an engine file, ``.toml`` or ``.json``.
 
-        :meth:`Engine.load` reads the engine of such a file alone.
+        Files are in the engine's axes. :meth:`Engine.load` reads the engine of such a file alone.
 
         Parameters
         ----------

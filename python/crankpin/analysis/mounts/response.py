@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from crankpin.model.actuators import Actuator
     from crankpin.model.base_motion import BaseMotion
     from crankpin.model.engine import Engine
+    from crankpin.model.vehicle_axes import VehicleAxes
 
 Source: TypeAlias = tuple[Any, ...]
 """Origin of a vector: ``("support",)``, ``("mount", index)``, ``("at", point, on, name)``."""
@@ -104,7 +105,7 @@ def _warn_of_free_motion(response: MountResponse) -> None:
         if frequency == np.inf:
             return
     try:
-        free = powertrain._core.free_motions(frequency)
+        free = powertrain._free(powertrain._core.free_motions(frequency))
     except InputError:  # where a hydraulic mount has no modes
         return
     if free:
@@ -123,7 +124,7 @@ class PointMotion(Labelled):
     result: MountResponse
     """The response that it belongs to."""
     point: tuple[float, float, float] | str
-    """Place in the engine's axes, m, or the name of a receiver."""
+    """Place, m, or the name of a receiver."""
     on: str
     """``"powertrain"`` or ``"support"``: what the place moves with."""
     order: Key = None
@@ -157,6 +158,10 @@ class PointMotion(Labelled):
 
     def _words_of(self, quantity: Quantity) -> str:
         return f"{quantity.kind.words} of {self._words}"
+
+    @property
+    def _vehicle(self) -> VehicleAxes | None:
+        return self.result._vehicle
 
     def _values(self, quantity: str) -> NDArray[np.complex128]:
         return self.result._vectors(("at", self.point, self.on, quantity))
@@ -208,7 +213,8 @@ class PointMotion(Labelled):
         """
         if self.order not in (None, ALL):
             raise inputs.rejected("order", self.order, "grade is that of all orders together")
-        grades = self.result._by_speed(self.result._core.grades(self.point, self.on == SUPPORT))
+        place = self.result._core_place(self.point)
+        grades = self.result._by_speed(self.result._core.grades(place, self.on == SUPPORT))
         return grades if grades.ndim else float(grades)
 
     @property
@@ -389,8 +395,8 @@ class MountQuantities:
         Parameters
         ----------
         point : sequence of float or str
-            Place (x, y, z) in the engine's axes, m, or the name of a receiver of the receptance
-            that carries the mounts, such as ``"seat rail"``.
+            Place (x, y, z), m, or the name of a receiver of the receptance that carries the mounts,
+            such as ``"seat rail"``.
         on : {"powertrain", "support"}, default "powertrain"
             What a place moves with: the powertrain, or the subframe that carries its mounts.
 
@@ -541,8 +547,10 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         N·m.
         """
         names = ("force", "moment", "torque")
-        cg = self.powertrain.body.cg
+        vehicle, cg = self.powertrain.vehicle, self.powertrain.body.cg
         x, y, z = np.subtract(cg, self._point or cg).tolist()
+        if vehicle is not None:
+            x, y, z = vehicle._vectors((x, y, z), inverse=True).tolist()
         bounds = _core.bounds_about(self._core.error_bound, (x, y, z))
         return MappingProxyType(dict(zip(names, bounds, strict=True)))
 
@@ -603,13 +611,27 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         compute: dict[str, Callable[[], NDArray[Any]]] = {
             "mount_force": core.mount_forces,
             "ground_force": lambda: core.ground_forces().sum(axis=-2),
-            "wrench": lambda: core.loads(self._point),
-            "support_wrench": lambda: core.support_loads(self._point),
+            "wrench": lambda: core.loads(self._core_place(self._point)),
+            "support_wrench": lambda: core.support_loads(self._core_place(self._point)),
             "motion": core.motions,
             "subframe_motion": core.subframe_motions,
             "base_motion": core.base_motions,
         }
         return self._by_speed(compute[quantity]())
+
+    @property
+    def _vehicle(self) -> VehicleAxes | None:
+        return self.powertrain.vehicle
+
+    def _turned(self, quantity: str, values: NDArray[Any]) -> NDArray[Any]:
+        # A part of the load on the body, which is turned.
+        return values if quantity == "body_force" else super()._turned(quantity, values)
+
+    def _core_place(self, point: Any) -> Any:  # noqa: ANN401 - a place, a name or None
+        """Return a place in the engine's axes; a name of a receiver, or None, as it is."""
+        if self._vehicle is None or point is None or isinstance(point, str):
+            return point
+        return self._vehicle.to_engine(point)
 
     def _ratio(self, quantity: str) -> NDArray[np.float64]:
         """Return the transmissibility, as a ratio or in decibels."""
@@ -628,8 +650,9 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         kind, *rest = source
         if kind == "at":
             point, on, name = rest
+            place = self._core_place(point)
             return self._once(  # type: ignore[no-any-return]
-                source, lambda: read_only(self._by_speed(self._core.at(point, name, on == SUPPORT)))
+                source, lambda: read_only(self._by_speed(self._core.at(place, name, on == SUPPORT)))
             )
         if kind == "mount":
             return self.read("mount_force")[..., rest[0], :]
@@ -690,10 +713,13 @@ class MountResponse(MountQuantities, Keyed, Labelled):
         """
         inputs.only_one_of(point=point, z=z)
         name = "z" if point is None else "point"
+        if point is None:
+            self.powertrain._require_engine_axes("z")
         request = self._request.about(name, z if point is None else point)
         if (core := self.powertrain._engine_core) is not None:
-            checks.place(core, name, request.reference_z)
-            checks.place(core, name, *request.aside, middle=0.0)
+            x, y, along = self._core_place((*request.aside, request.reference_z))
+            checks.place(core, name, along)
+            checks.place(core, name, x, y, middle=0.0)
         return changed(self, _request=request)
 
     @property

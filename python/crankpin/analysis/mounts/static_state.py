@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.quantity import Quantity
     from crankpin.model.mounts import Vector
+    from crankpin.model.vehicle_axes import VehicleAxes
 
 GRAVITY = (0.0, -9.80665, 0.0)
 """Standard gravity of an upright engine, m/s²."""
@@ -37,6 +38,10 @@ class AtRest(Labelled):
 
     if TYPE_CHECKING:
         powertrain: Powertrain
+
+    @property
+    def _vehicle(self) -> VehicleAxes | None:
+        return self.powertrain.vehicle
 
     @property
     def _own_coords(self) -> Mapping[str, Any]:
@@ -146,13 +151,13 @@ class StaticState(AtRest):
     torque: float
     """Mean torque that leaves the unit, N·m, about +z: −torque acts on the body."""
     gravity: tuple[float, float, float]
-    """Acceleration of gravity in the engine's axes, m/s²."""
+    """Acceleration of gravity, m/s²."""
     thrust: tuple[float, float, float] = STILL
     """Force of a propeller's shaft on the unit, N."""
     thrust_at: tuple[float, float, float] = STILL
     """Place where it acts, m."""
     acceleration: tuple[float, float, float] = STILL
-    """Acceleration of the vehicle in the engine's axes, m/s², which counts with the weight."""
+    """Acceleration of the vehicle, m/s², which counts with the weight."""
     support_margin: float = computed()
     """Distance of the centre of gravity from the edge of the polygon of the mounts, m.
 
@@ -163,7 +168,9 @@ class StaticState(AtRest):
 
     def __post_init__(self) -> None:
         case = Case(self.torque, self.gravity, self.thrust, self.thrust_at, self.acceleration)
-        displacement, forces, own, margin, corners = self.powertrain._core.static(case.figures)
+        displacement, forces, own, margin, corners = self.powertrain._core.static(
+            case.figures(self.powertrain.vehicle)
+        )
         of_mounts, count = np.array(forces), len(self.powertrain.mounts)
         moved = np.array(displacement)
         arrays = {"ground_preload": of_mounts[:, count:].sum(axis=0)}
@@ -195,14 +202,18 @@ class StaticState(AtRest):
         columns = [Column("mount", tuple(self.powertrain._core.all_names))]
         acting = f" Snubbers act: {', '.join(self.snubbers)}." if self.snubbers else ""
         causes = ["weight", "torque", *(["thrust"] if any(self.thrust) else [])]
-        for cause, forces in zip(causes, self.__dict__["_forces"], strict=False):
+        vehicle = self.powertrain.vehicle
+        of_mounts = self.__dict__["_forces"]
+        of_mounts = of_mounts if vehicle is None else vehicle._vectors(of_mounts)
+        for cause, forces in zip(causes, of_mounts, strict=False):
             for axis, values in zip("xyz", forces.T.tolist(), strict=True):
                 columns.append(Column(f"{cause} F_{axis}", tuple(values), "N"))
         side = "inside" if self.support_margin > 0.0 else "outside"
         sag = tuple(1e3 * self.read("sag"))
+        turn = self.__dict__["_arrays"]["wind_up_deg"][2]
         note = units.Text(
             "Sag of the CG ", units.Figure(sag, "mm", ".4g", "({}, {}, {})"),
-            f"; wind-up {self.wind_up_deg[2]:.4g}° about z under ",
+            f"; wind-up {turn:.4g}° about {'z' if vehicle is None else 'the crank'} under ",
             units.figure(self.torque, "N·m", 6),
             f" that leave the unit. The CG is {side} the mounts' polygon by ",
             units.figure(1e3 * abs(self.support_margin), "mm", 4), f". Static stiffness.{acting}",
@@ -235,11 +246,14 @@ class Case(NamedTuple):
     thrust_at: Vector
     acceleration: Vector
 
-    @property
-    def figures(self) -> tuple[list[list[float]], float]:
-        """The case as the core takes it."""
-        vectors = (self.gravity, self.acceleration, self.thrust, self.thrust_at)
-        return (list(map(list, vectors)), self.torque)
+    def figures(self, vehicle: VehicleAxes | None) -> tuple[list[list[float]], float]:
+        """Return the case as the core takes it, of the axes of a vehicle or the engine's."""
+        vectors, place = (self.gravity, self.acceleration, self.thrust), self.thrust_at
+        if vehicle is None:
+            return (list(map(list, (*vectors, place))), self.torque)
+        turned = vehicle._vectors(vectors, inverse=True).tolist()
+        place = vehicle.to_engine(place) if any(self.thrust) else STILL
+        return ([*turned, list(place)], self.torque)
 
 
 def case_of(
@@ -247,13 +261,16 @@ def case_of(
     *,
     torque: float | Literal["engine"] = 0.0,
     gear_ratio: float = 1.0,
-    gravity: ArrayLike = GRAVITY,
+    gravity: ArrayLike | None = None,
     acceleration: ArrayLike = STILL,
     rpm: float = 1000.0,
     thrust: ArrayLike = STILL,
     thrust_at: ArrayLike = STILL,
 ) -> Case:
     """Return what acts, checked; :meth:`Powertrain.static` documents the arguments."""
+    if gravity is None:
+        rest = powertrain.rest or upright(powertrain.vehicle)._asdict()
+        gravity = rest["gravity"]
     return Case(
         _leaving_torque(powertrain, torque, gear_ratio, rpm),
         _vector("gravity", gravity),
@@ -263,8 +280,14 @@ def case_of(
     )
 
 
-UPRIGHT = Case(0.0, GRAVITY, STILL, STILL, STILL)
-"""Rest under standard gravity."""
+def upright(vehicle: VehicleAxes | None) -> Case:
+    """Return rest under standard gravity."""
+    if vehicle is None:
+        return Case(0.0, GRAVITY, STILL, STILL, STILL)
+    x, y, z = (-GRAVITY[1] * part + 0.0 for part in vehicle.down)
+    return Case(0.0, (x, y, z), STILL, STILL, STILL)
+
+
 ARGUMENTS = tuple(inspect.signature(case_of).parameters)[1:]
 """Names of what a case may have."""
 
