@@ -7,6 +7,7 @@ FFT of 96 samples each, in one run, and shows both beside 50 digits at the limit
 from __future__ import annotations
 
 import argparse
+from functools import partial
 
 import crankpin as cp
 import mpmath
@@ -18,15 +19,15 @@ SAMPLES = 96
 PART = 2000
 """Link rods that NumPy transforms at once: their samples stay in the cache."""
 
-LIMITS = {
+LIMITS: dict[str, tuple[float, ...]] = {
     "knuckle on the crankpin, a/r = 1e-9": (0.33, 0.26, 1e-9, 72.0, 79.0),
     "knuckle at the wrist pin, a = l": (0.1, 0.26, 1 / 0.26, 20.0, 20.0),
-    "link rod longer by 5 %": (None, 0.26, 0.87, 72.0, 79.0, 1.05),
-    "link rod longer by 1 %": (None, 0.26, 0.87, 72.0, 79.0, 1.01),
+    "link rod longer by 5 %": (np.nan, 0.26, 0.87, 72.0, 79.0, 1.05),
+    "link rod longer by 1 %": (np.nan, 0.26, 0.87, 72.0, 79.0, 1.01),
     "knuckle 1e-9° from the bore": (0.33, 0.26, 0.87, 72.0, 72.0 + 1e-9),
     "usual": (0.33, 0.26, 0.87, 72.0, 79.0),
 }
-"""Condition → r/L, r/l, a/r, D and ψ, degrees; or None and how much longer L is than it must be."""
+"""Condition → r/L, r/l, a/r, D and ψ, degrees; or nan and how much longer L is than it must be."""
 
 
 def stars(count: int) -> tuple[np.ndarray, ...]:
@@ -59,7 +60,8 @@ def positions(figures: tuple[np.ndarray, ...], theta: np.ndarray) -> np.ndarray:
     rods, masters, knuckles, bores, angles = (each[:, np.newaxis] for each in figures)
     lean = -np.arcsin(masters * np.sin(theta + np.radians(bores)))
     place = np.exp(1j * theta) + knuckles * np.exp(1j * (np.radians(angles - bores) + lean))
-    return place.real + np.sqrt(rods**-2.0 - place.imag**2)
+    heights: np.ndarray = place.real + np.sqrt(rods**-2.0 - place.imag**2)
+    return heights
 
 
 def fft(figures: tuple[np.ndarray, ...], samples: int = SAMPLES) -> np.ndarray:
@@ -95,7 +97,7 @@ def main() -> None:
     count = parser.parse_args().stars
     figures = stars(count)
     methods = {"crankpin": crankpin, "FFT of 96 samples": fft}
-    best = interleaved({name: lambda m=m: m(figures) for name, m in methods.items()}, rounds=3)
+    best = interleaved({name: partial(m, figures) for name, m in methods.items()}, rounds=3)
     exact = fft(figures, 2 * SAMPLES)
     print(machine())
     print(f"{len(figures[0])} link rods of {count} stars, orders 1-6: time, relative, error")
@@ -108,7 +110,7 @@ def main() -> None:
     print("\nLargest error of an order beside 50 digits: crankpin, FFT of 96 samples")
     for name, given in LIMITS.items():
         rod, *rest = given[:5]
-        if rod is None:
+        if np.isnan(rod):
             theta = np.linspace(0.0, 2.0 * np.pi, 100_001)
             one = tuple(np.array([each]) for each in (1e-9, *rest))
             masters, knuckles, bores, angles = one[1:]
@@ -116,7 +118,7 @@ def main() -> None:
             place = np.exp(1j * theta) + knuckles * np.exp(1j * (np.radians(angles - bores) + lean))
             rod = 1.0 / (given[5] * np.abs(place.imag).max())
         one = tuple(np.array([each]) for each in (rod, *rest))
-        known = np.array(digits((rod, *rest)))
+        known: np.ndarray = np.array(digits((rod, *rest)))
         errors = [np.abs(method(one)[0] - known).max() for method in methods.values()]
         print(f"{name:40} {errors[0]:.0e} {errors[1]:.0e}")
 

@@ -43,12 +43,16 @@ def digits(figures: Figures, samples: int = 1024) -> NDArray[np.complex128]:
 
 def ours(figures: Figures) -> NDArray[np.complex128]:
     """Return the harmonics by crankpin."""
-    return link_rods.crankpin(tuple(np.array([one]) for one in figures))[0]
+    harmonics: NDArray[np.complex128] = link_rods.crankpin(
+        tuple(np.array([one]) for one in figures)
+    )[0]
+    return harmonics
 
 
 def sampled(figures: Figures) -> NDArray[np.complex128]:
     """Return them by a transform of 96 samples."""
-    return link_rods.fft(tuple(np.array([one]) for one in figures))[0]
+    harmonics: NDArray[np.complex128] = link_rods.fft(tuple(np.array([one]) for one in figures))[0]
+    return harmonics
 
 
 def alike(figures: Figures) -> NDArray[np.complex128]:
@@ -109,8 +113,8 @@ LINKS = [
         Case(
             "link rods", f"knuckle beside the crankpin, a = {radius:g} r: orders 3 and 5, each",
             1e-12, "odd parts of roots have the odd part as a factor", "transform of 96 samples",
-            lambda f=(*USUAL[:2], radius, *USUAL[3:]): of_odd(sampled(f), digits(f)),
-            lambda f=(*USUAL[:2], radius, *USUAL[3:]): of_odd(ours(f), digits(f)),
+            lambda f=(*USUAL[:2], radius, *USUAL[3:]): of_odd(sampled(f), digits(f)),  # type: ignore[misc]
+            lambda f=(*USUAL[:2], radius, *USUAL[3:]): of_odd(ours(f), digits(f)),  # type: ignore[misc]
         )
         for radius in (1e-3, 1e-9)
     ),
@@ -126,8 +130,8 @@ LINKS = [
             f"link rod longer than it must be by {beyond:g}: orders 1-6, over the largest",
             1e-12, "as many samples as the height of the strip demands",
             "transform of 96 samples",
-            lambda b=beyond, n=count: largest(sampled(barely_long(b)), digits(barely_long(b), n)),
-            lambda b=beyond, n=count: largest(ours(barely_long(b)), digits(barely_long(b), n)),
+            lambda b=beyond, n=count: largest(sampled(barely_long(b)), digits(barely_long(b), n)),  # type: ignore[misc]
+            lambda b=beyond, n=count: largest(ours(barely_long(b)), digits(barely_long(b), n)),  # type: ignore[misc]
         )
         for beyond, count in ((1e-2, 1024), (1e-4, 4096))
     ),
@@ -135,8 +139,8 @@ LINKS = [
         Case(
             "link rods", f"knuckle {degrees}° from its bore: orders 3 and 5, each", 1e-11,
             "the sine of the angle between is a factor, and that known to 1e-16 of a turn", method,
-            lambda f=figures, m=by: of_odd(m(f), digits(f)),
-            lambda f=figures: of_odd(ours(f), digits(f)),
+            lambda f=figures, m=by: of_odd(m(f), digits(f)),  # type: ignore[misc]
+            lambda f=figures: of_odd(ours(f), digits(f)),  # type: ignore[misc]
         )
         for degrees, figures, method, by in (
             ("0.001", near(1e-3), "all rods alike", alike),

@@ -217,8 +217,8 @@ def test_masses_of_other_proportions_cancel_group_by_group() -> None:
     short, long = (one.harmonics([2])[0].real for one in (CYLINDER, longer))
     mass = CYLINDER.reciprocating_mass * short / long
     even = [CYLINDER, longer.replace(reciprocating_mass=mass)]
-    v = cp.Engine.from_lists(even, tdc_deg=[0, 90], bank_deg=[90] * 2, z=[0, 0])
-    v = v.vanishing_orders([2])
+    balanced = cp.Engine.from_lists(even, tdc_deg=[0, 90], bank_deg=[90] * 2, z=[0, 0])
+    v = balanced.vanishing_orders([2])
     assert v.force.y[2] == "undecided"
     assert "proportions" in v.obstacles[0]
 

@@ -506,7 +506,8 @@ def drawn(seed: int) -> tuple[cp.Engine, list[Hung]]:
     unlike = choice([0.0, 0.1])
     for row, throw in enumerate(throws):
         for k, bore in enumerate(bores):
-            own = Hung(*map(exact, (0.06, 0.18, mass)), bore, Fraction(throw), Fraction(row) / 10)
+            radius, rod, moving = map(exact, (0.06, 0.18, mass))
+            own = Hung(radius, rod, moving, bore, Fraction(throw), Fraction(row) / 10)
             if k == 0:
                 own = own._replace(rod=exact(length), offset=exact(offset), mass=master_mass)
                 links.append(None)
@@ -518,8 +519,11 @@ def drawn(seed: int) -> tuple[cp.Engine, list[Hung]]:
                 )  # fmt: skip
                 links.append(cp.LinkRod(len(bores) * row + 1, knuckle, bore + ahead, end))
             hung.append(own)
-            figures = (own.crank_radius, own.rod, own.mass, own.offset)
-            engine_of.append(cp.Cylinder(*map(float, figures)))
+            engine_of.append(
+                cp.Cylinder(
+                    float(own.crank_radius), float(own.rod), float(own.mass), float(own.offset)
+                )
+            )
     engine = cp.Engine.from_lists(
         engine_of,
         tdc_deg=[own.bore - own.throw for own in hung],

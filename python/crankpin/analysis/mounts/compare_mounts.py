@@ -84,6 +84,7 @@ def compare_mounts(
     for name, one in (("before", before), ("after", after)):
         if not hasattr(one, "_core") or not hasattr(one, "mounts"):
             raise inputs.rejected(name, one, "give a crankpin.Powertrain")
+        one._require_engine_axes("compare_mounts")
     first, second = (one.response(rpm, orders=orders, rtol=rtol) for one in (before, after))
     both = tuple(sorted({*first.orders, *second.orders}))
     if not isinstance(orders, str) or not both:
