@@ -431,8 +431,9 @@ KINDS: dict[str, list[Any]] = {
     "on.tilt_deg": [[10]],
     "on.z": [[0.1]],
     "q": [0.5],
-    "tidy.columns": ["pressure"],
+    "tidy.columns": ["pressure", "y"],
     "sel.order": [1, 2],
+    "sel.frequency": [5.0],
     "plot.numbers": [[1]],
     "plot.frame": ["table"],
     "plot.quantity": ["moment", "main", "velocity"],
@@ -485,6 +486,9 @@ SEEDS: list[Any] = [
     LOCOMOTIVE,
     *(ENGINE, ENGINE.with_cycle(None), CYLINDER, CYCLE, MAP, POWERTRAIN, *MOUNTS, SHAKER),
     POWERTRAIN.response(base=cp.BaseMotion({5.0: (0, 1e-4, 0), 9.0: (0, 1e-4, 0)})),
+    POWERTRAIN.response(
+        [1000.0, 2000.0], orders=[2], base=cp.BaseMotion({2: (0, 1e-4, 0)}, by="order")
+    ),
     cp.sweep(ENGINE, rpm=[1000.0, 2000.0], orders=[1, 2]),
     *(ENGINE.firing(), two_stroke(), ENGINE.closed_form(1)),
     cp.design(

@@ -108,7 +108,8 @@ OTHERWISE = {
     "rod": {"length"},  # the cylinder's
     "load": {"scaling", "rpm", "over_speed", "x", "y", "axis"},
     "cycle": {"example", "origin"},
-    "powertrain": {"engine", "support", "subframe", "receptance"},
+    # Files are in the axes of the engine.
+    "powertrain": {"engine", "support", "subframe", "receptance", "vehicle"},
     "receptance": {"table", "frequency", "real", "imaginary"},
 }
 """Entries and arguments that the other does not have: what one writes otherwise than the other."""

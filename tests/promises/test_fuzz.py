@@ -65,6 +65,7 @@ UNDEFINED = {
     # Of directions without load.
     "MountResponse": {"transmissibility", "transmissibility_db"},
     "DrivenResponse": {"transmissibility", "transmissibility_db"},
+    "PointMotion": {"base_transmissibility"},
     "BaseResponse": {"transmissibility", "transmissibility_db", "base_transmissibility"},
 }
 """Figures of the instances that are not finite, by what their docstrings say."""

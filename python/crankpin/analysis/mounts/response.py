@@ -189,7 +189,7 @@ class PointMotion(Labelled):
 
     @property
     def base_transmissibility(self) -> NDArray[np.float64]:
-        """Magnitude along x, y and z over that of the base at the same place: (…, n_orders, 3).
+        """Magnitude along x, y and z over that of the base there: (…, n_orders, n_axes).
 
         Of a response on a base that moves; NaN where that does not move in the direction.
         """
