@@ -206,7 +206,7 @@ class EngineFile(SphinxDirective):
             sign = (
                 "" if least is None else f"; {'>' if 'exclusiveMinimum' in about else '≥'} {least}"
             )
-            need = "needed" if entry in part["required"] else f"{about.get('default', '–')}"
+            need = "needed" if entry in part.get("required", ()) else f"{about.get('default', '–')}"
             rows.append(f"| `{entry}` | {need} | {about['description']}{sign} |")
         table = "\n".join(["| entry | default | meaning |", "|---|---|---|", *rows])
         section = nodes.section(ids=[f"file-{name}"])
