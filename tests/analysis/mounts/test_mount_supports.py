@@ -353,3 +353,13 @@ def random_stages(seed: int) -> cp.Powertrain:
     )
     p = cp.Powertrain(engine, body(150.0), upper)
     return p.with_support(cp.Subframe(body(100.0), mounts(int(draw.integers(3, 6)), 3.0)))
+
+
+def test_a_subframe_that_swings_by_itself_is_named_with_its_line() -> None:
+    line = [cp.Mount(f"{x}", (x, -0.2, 0.1), 2e5) for x in (0.3, -0.3)]
+    upper = cp.RigidBody(150.0, (0, 0.1, 0), (7, 8, 4.5))
+    lower = cp.RigidBody(300.0, (0.1, -0.5, 0.3), (30, 35, 15))
+    stiffer = [mount.replace(stiffness=4e5) for mount in line]
+    free = cp.Powertrain(SINGLE, upper, line, cp.Subframe(lower, stiffer)).modes().free
+    about = "about the line through (0.1, -0.2, 0.1) m along (1, 0, 0)"
+    assert f"rotation of the subframe {about}" in free

@@ -296,6 +296,21 @@ def test_rocking_about_the_base() -> None:
     np.testing.assert_allclose(amplitude(p, rpm, 1, 3), expected, rtol=1e-12)
 
 
+def test_dashpots_count_inertia_about_the_base() -> None:
+    """B of rocking and torsion is of the moments about the middle of the base, not the CG."""
+    body = cp.RigidBody.block(width=3.0, height=2.4, length=4.0)
+    base = SOIL.mount(body, radius=2.0, at=(0.2, -2.4, 0.3))
+    arm = np.array([0.2, -1.2, 0.3])
+    about = np.array(body.inertia) + body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    size = RHO * 2.0**5
+    for axis, ratio in ((0, 3 * (1 - NU) / 8), (1, 1.0), (2, 3 * (1 - NU) / 8)):
+        inertia, k = about[axis, axis], base.rotational_stiffness[axis]
+        b = ratio * inertia / size
+        damping = 0.5 / (1 + 2 * b) if axis == 1 else 0.15 / ((1 + b) * np.sqrt(b))
+        critical = 2 * np.sqrt(k * inertia)
+        assert base.rotational_damping[axis] == pytest.approx(damping * critical, rel=1e-12)
+
+
 def test_coupled_rocking_and_sliding_has_the_roots_of_the_quadratic() -> None:
     """The classic equation of a block whose CG is h above its base (Barkan; Prakash and Puri)."""
     body = cp.RigidBody.block(width=3.0, height=2.4, length=4.0)
