@@ -44,6 +44,10 @@ def mounted(engine: cp.Engine) -> cp.Powertrain:
 RESULTS: dict[str, Any] = {
     "mounts": lambda e: mounted(e).response(3000),
     "point": lambda e: mounted(e).response(3000).at((0, 0.1, 0)),
+    "on a moving base": lambda e: mounted(e).response(
+        3000, orders=[1, 2], base=cp.BaseMotion({2: (0, 1e-5, 0)}, by="order")
+    ),
+    "mountings": lambda e: cp.compare_mounts(mounted(e), mounted(e), 3000),
     "cancellation": lambda e: mounted(e).response(3000).cancel(SHAKER, (0, 0.1, 0)),
     "driven": lambda e: mounted(e).response(3000).cancel(SHAKER, (0, 0.1, 0)).response,
     "mount designs": lambda e: mounted(e).designs([3000], {"a": {"stiffness": [1e5, 2e5]}}),

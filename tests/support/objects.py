@@ -273,7 +273,7 @@ OBJECTS = Made(
         "MountComparison at one speed": lambda: cp.compare_mounts(
             MOUNTED, STIFFER, 3000.0, orders=[2, 4]
         ),
-        "VehicleAxes": lambda: cp.VehicleAxes(flywheel="left", origin=(1.4, 0.2, 0.4)),
+        "VehicleAxes": lambda: cp.VehicleAxes(flywheel="forward", origin=(1.4, 0.2, 0.4)),
         "Powertrain of forces": lambda: SHAKEN,
         "MountResponse of forces": lambda: SHAKEN.response(3000.0),
         "MountModes": lambda: MOUNTED.modes(20.0),
