@@ -282,6 +282,8 @@ def test_big_ends_at_knuckles_of_a_star_by_hand() -> None:
     assert bob.mass == pytest.approx([1.1 + 2.5 + 0.4 * 4.1130435], abs=1e-8)
     assert not bob.across.any()
     assert "across" not in bob.table.to_csv()
+    known = "Bob weights of all rotating and half the reciprocating mass remove what turns"
+    assert known in str(star.replace(rotating_mass=0).explain(3000))
 
 
 def test_big_ends_on_one_side_act_across_the_crankpin() -> None:

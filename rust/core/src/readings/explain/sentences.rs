@@ -135,7 +135,9 @@ impl Explanation {
                 self.remedy(&what, *order, shafts, *weights, &least, is_all)
             }
             Finding::BobWeights { one_sense } => {
-                let rotates = self.engine.stations().iter().any(|place| place.rotating_mass != 0.0);
+                let rotates = self.engine.stations().iter().enumerate().any(|(i, place)| {
+                    place.rotating_mass != 0.0 || self.engine.knuckle_mass(i).is_some()
+                });
                 let rotating = if rotates { "all rotating and " } else { "" };
                 let replaced = !self.engine.counterweights().is_empty();
                 let instead = if replaced { " in place of the counterweights" } else { "" };
