@@ -461,7 +461,7 @@ class Powertrain(Framed, Input):
         ...      {"acceleration": (0, 0, 8)}}
         ... )
         >>> cases.travel.dims, cases.sel(case="first gear").snubbers
-        (('case', 'all_mounts', 'axis'), ())
+        (('case', 'all_mounts', 'axis'), ('a −2', 'b +2'))
         """
         return loaded.load_cases(self, cases)
 
