@@ -60,8 +60,8 @@ class VehicleAxes(Input):
     >>> import crankpin as cp
     >>> vehicle = cp.VehicleAxes("back, right, up", flywheel="left", origin=(1.45, 0.2, 0.36))
     >>> vehicle.to_engine((1.25, 0.2, 0.26))
-    (0.2, -0.1, 0.0)
-    >>> vehicle.from_engine((0.2, -0.1, 0.0))
+    (-0.2, -0.1, 0.0)
+    >>> vehicle.from_engine((-0.2, -0.1, 0.0))
     (1.25, 0.2, 0.26)
     """
 
