@@ -27,7 +27,9 @@ WORDS = {
 }  # fmt: skip
 """Options that are names, files and sequences, no numbers."""
 NAMES = {
-    ("mounts", "--mount"), ("new", "--mount"), ("new", "--body"), ("new", "--cranks"),
+    ("mounts", "--case"), ("mounts", "--rest"), ("mounts", "--base"), ("mounts", "--axes"),
+    ("new", "--axes"), ("mounts", "--mount"), ("new", "--mount"),
+    ("new", "--body"), ("new", "--cranks"),
     ("new", "--link-rods"), ("new", "--master"),
     ("trace", "--leave-out"), ("trace", "--recorded-rpm"), ("trace", "--sampling-rate"),
 }  # fmt: skip
@@ -130,8 +132,12 @@ IN_PLACE = {
     "--small-ends 0.1,0.1,0.1,0.1",
     ("match", "--big-ends"): "i4 --pistons 0.45,0.46,0.45,0.47 --small-ends 0.1,0.1,0.1,0.1 "
     "--big-ends 0.3,0.3,0.3,0.3",
+    ("design", "--masses"): "i2-360 --by [1].force.peak --count 1 --masses 0.5,0.4",
+    ("design", "--positions"): "i2-360 --by [1].force.peak --count 1 --positions 0,0.1",
     ("design", "--shafts"): "i2-360 --by total.force.peak --count 1 --shafts 2,-2",
     ("card", "--bearings"): "v8-crossplane --bearings 40g",
+    ("mounts", "--base-hz"): "car.toml --base y=0.1mm --base-hz 5",
+    ("mounts", "--base-about"): "car.toml --base y=0.1mm --base-hz 5 --base-about 0,0.1,0",
     ("mounts", "--misfire"): "fired.toml --misfire 2",
     ("foundation", "--top"): f"{ON_SOIL} --top 0,-1,1.5",
     ("foundation", "--density"): f"{ON_SOIL} --density 2350",

@@ -73,6 +73,7 @@ SOUND = {
     "--crosshead-mass": "--crosshead-mass 0.3",
     "--body": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000",
     "--mount": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000:0.1",
+    "--axes": "--body 150:0,0.06,0.1:7,8,4.5 --mount a:0.3,0,0:200000 --axes back,right,up",
     "--name": "--name mine",
     "--add-load": "--add-load 'fan: on=shaft force=2:8 z=-10mm'",
     "--units": "--units g,mm",
