@@ -568,3 +568,40 @@ def test_proofs_of_links_with_big_ends_beside_50_digits() -> None:
 def test_more_proofs_of_links_with_big_ends_beside_50_digits() -> None:
     verdicts = check_proofs(range(3, 60))
     assert verdicts["undecided"] <= 0.01 * sum(verdicts.values())
+
+
+def test_turning_points_beside_whole_degrees_are_not_rounded() -> None:
+    """With a knuckle between 1 and 52 mm a piston is highest 2.0005° past its bore."""
+
+    def past(radius: float) -> float:
+        star = cp.Engine.radial(cp.Cylinder(0.06, 0.23, 1.0), 5, rods=cp.LinkRods(radius, 0.178))
+        return float(cp.dead_centres(star).tdc_deg[1]) - 72.0
+
+    low, high = 0.001, 0.052
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if past(middle) < 2.0005 else (low, middle)
+    assert past(high) == pytest.approx(2.0005, abs=1e-11)  # of roots to 1e-13°
+
+
+def test_torque_of_big_ends_beside_long_cranks_is_that_of_their_motion() -> None:
+    """Of a master rod of 1.15 crank radii, with an offset pin: free masses followed over a turn."""
+    link = cp.Cylinder(0.06, 0.068, 1.0)
+    cylinders = [link.replace(rod_length=0.069, pin_offset=0.003), link]
+    rods = cp.LinkRods(0.004, 0.068, big_end_mass=0.4)
+    twin = cp.Engine.vee(cylinders, bank_angle_deg=60, throws_deg=[0], spacing=0.1, rods=rods)
+    bore = np.exp(1j * np.radians(60.0))
+    crankpin = 0.06 * bore * np.exp(2j * np.pi * np.arange(1024) / 1024)
+    aside = crankpin / bore - 0.003j
+    wrist = bore * (aside.real + np.sqrt(0.069**2 - aside.imag**2) + 0.003j)
+    knuckle = crankpin + 0.004 * bore * (wrist - crankpin) / 0.069
+    piston = anew.on_bore(knuckle, 0.068, 120.0)
+    free = anew.torques((1.0, 1.0, 0.4), (wrist, piston, knuckle))
+    balance = twin.balance(1000, orders=[1, 2, 3])
+    omega_squared = (1000 * np.pi / 30) ** 2
+    for name, of in zip(("torque", "crank_torque"), free, strict=True):
+        phasors = 2.0 * np.fft.fft(of * omega_squared) / 1024
+        for order in (1, 2, 3):
+            # Derivatives by transforms of 1024 samples lose three digits.
+            expected = pytest.approx(complex(phasors[order]), abs=1e-12 * abs(phasors).max())
+            assert complex(getattr(balance[order], name).phasor) == expected

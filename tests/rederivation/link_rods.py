@@ -110,6 +110,23 @@ def roll(star: Star, masses: tuple[float, ...], samples: int = 256) -> NDArray[n
     return torque + (pistons[0].conj() * -1j * from_wall).imag
 
 
+def torques(
+    masses: tuple[float, ...], paths: tuple[Complex, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return torque over ω² on the block, and on a crank that turns evenly, of masses on paths.
+
+    What drives the crank gives the change of kinetic energy; the block gives the rest of the change
+    of the moment of momentum.
+    """
+    energy, momentum = np.zeros(len(paths[0])), np.zeros(len(paths[0]))
+    for mass, path in zip(masses, paths, strict=True):
+        velocity = derivative(path)
+        energy += 0.5 * mass * abs(velocity) ** 2
+        momentum += mass * (path.conj() * velocity).imag
+    drive = derivative(energy).real
+    return drive - derivative(momentum).real, -drive
+
+
 class Hung(NamedTuple):
     """A cylinder by its rod: directions in degrees, lengths in m, masses in kg."""
 
