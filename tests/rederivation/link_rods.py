@@ -118,10 +118,11 @@ def torques(
     What drives the crank gives the change of kinetic energy; the block gives the rest of the change
     of the moment of momentum.
     """
-    energy, momentum = np.zeros(len(paths[0])), np.zeros(len(paths[0]))
+    energy: Complex = np.zeros(len(paths[0]), dtype=complex)
+    momentum = energy.copy()
     for mass, path in zip(masses, paths, strict=True):
         velocity = derivative(path)
-        energy += 0.5 * mass * abs(velocity) ** 2
+        energy += 0.5 * mass * np.abs(velocity) ** 2
         momentum += mass * (path.conj() * velocity).imag
     drive = derivative(energy).real
     return drive - derivative(momentum).real, -drive
