@@ -142,7 +142,7 @@ def _names(table: Table) -> list[str]:
         if head not in numbers and head != "unit"
     ]
     beside = beside or [[str(k + 1) for k in range(len(table))]]
-    return [", ".join(cells) for cells in zip(*beside, strict=True)]
+    return [", ".join(filter(None, cells)) for cells in zip(*beside, strict=True)]
 
 
 def _curves(ax: Axes, x: NDArray[np.float64], panel: Panel, style: dict[str, Any]) -> None:

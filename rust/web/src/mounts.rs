@@ -13,7 +13,7 @@ pub fn mounts(arguments: &mut Arguments, _: &mut Columns) -> Result<Value> {
     let hint = "give the file of an engine on mounts";
     let powertrain = powertrain.ok_or_else(|| Error::value("powertrain", "none", hint))?;
     let frequency = arguments.optional("frequency")?;
-    let gravity = arguments.or("gravity", [0.0, -9.806_65, 0.0])?;
+    let gravity = arguments.or("gravity", LoadCase::default().gravity)?;
     let torque: f64 = arguments.or("torque", 0.0)?;
     let [thrust, thrust_at] = arguments.or("thrust", [[0.0; 3]; 2])?;
     let found = modes(&powertrain, frequency)?;

@@ -332,10 +332,14 @@ def test_bob_weights_leave_what_their_factor_says_of_moving_parts(seed: int) -> 
     def turning(factor: float) -> complex:
         """The part of order 1 that turns with the crank, over ω²."""
         bob = cp.bob_weight(engine, factor)
-        turned = 0.7 * 0.05 + sum(
+        weights = sum(
             weight.amount * np.exp(1j * sense * np.radians(weight.angle_deg))
             for weight in bob.hardware
         )
+        # What the table has is what the crankshaft gets.
+        clamped = -0.05 * (bob.mass[0] + 1j * sense * bob.across[0])
+        assert complex(weights) == pytest.approx(clamped, abs=1e-14)
+        turned = 0.7 * 0.05 + weights
         left = complex(np.fft.fft(moving + turned * direction)[sense] / 256)
         residual = bob.residual[1].force
         found = residual.forward if sense > 0 else residual.backward

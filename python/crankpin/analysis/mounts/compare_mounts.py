@@ -12,6 +12,7 @@ from crankpin._support.parameters import documented
 from crankpin._support.record import read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.comparison import change_of
+from crankpin.analysis.mounts.powertrain import Powertrain
 from crankpin.analysis.mounts.response import MountResponse, PointMotion
 from crankpin.analysis.quantity import ALL
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
-    from crankpin.analysis.mounts.powertrain import Powertrain
     from crankpin.analysis.quantity import Quantity
 
 
@@ -82,20 +82,15 @@ def compare_mounts(
     Without gas pressure.
     """
     for name, one in (("before", before), ("after", after)):
-        if not hasattr(one, "_core") or not hasattr(one, "mounts"):
+        if not isinstance(one, Powertrain):
             raise inputs.rejected(name, one, "give a crankpin.Powertrain")
         one._require_engine_axes("compare_mounts")
     first, second = (one.response(rpm, orders=orders, rtol=rtol) for one in (before, after))
     both = tuple(sorted({*first.orders, *second.orders}))
-    if not isinstance(orders, str) or not both:
-        return MountComparison(first, second, _at_point(first, second, point))
-    first, second = (one.response(rpm, orders=both) for one in (before, after))
-    return MountComparison(first, second, _at_point(first, second, point))
-
-
-def _at_point(first: MountResponse, second: MountResponse, at: Any) -> Any:  # noqa: ANN401
-    """Return the motion of a point of both, if there is one."""
-    return None if at is None else (first.at(at), second.at(at))
+    if isinstance(orders, str) and both:
+        first, second = (one.response(rpm, orders=both) for one in (before, after))
+    points = None if point is None else (first.at(point), second.at(point))
+    return MountComparison(first, second, points)
 
 
 class MountComparison(Tabled):

@@ -15,7 +15,7 @@ use super::modes::{NaturalModes, natural};
 use crate::numbers::error::{Error, Result};
 
 /// Steps of the search; a dozen suffice.
-const MOST_STEPS: usize = 1000;
+const LONGEST_SEARCH: usize = 1000;
 /// Part of what a step could move a snubber by, below which it does not along a free motion.
 const SLIDING: f64 = 1e-12;
 
@@ -113,7 +113,7 @@ impl<'a, const N: usize> Snubbed<'a, N> {
     /// Equilibrium with a load, of another one; an error where a motion is free.
     pub fn under(&self, load: &SVector<f64, N>, from: &Equilibrium<N>) -> Result<Equilibrium<N>> {
         let (mut at, mut piece) = (from.motion, from.piece.clone());
-        for _ in 0..MOST_STEPS {
+        for _ in 0..LONGEST_SEARCH {
             let residual = load - self.reaction(&at);
             let (step, is_free);
             if piece.modes.free == 0 {
